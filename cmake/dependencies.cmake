@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+# Libraries, all from Debian 12. docs/ARCHITECTURE.md says what each is for.
+find_package(OpenMP REQUIRED)
+find_package(Eigen3 3.4 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(fmt REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)

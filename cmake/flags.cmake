@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# One set of flags for everything.
+#   -ffp-contract=off    a*b+c is fused only where the source says fma(): the same bits for every vector width
+#   -fno-math-errno      sqrt() becomes one instruction
+#   -fno-trapping-math   lets the compiler turn lane loops into vector instructions
+# Not -ffast-math and not -ffinite-math-only: NaN checks must work and sums must keep their order.
+set(PATENCY_ARCH_native -march=native)
+set(PATENCY_ARCH_avx512 -march=x86-64-v4)
+set(PATENCY_ARCH_avx2 -march=x86-64-v3)
+set(PATENCY_ARCH_baseline -march=x86-64)
+set(PATENCY_ARCH ${PATENCY_ARCH_${PATENCY_ISA}})
+
+add_library(patency_flags INTERFACE)
+target_include_directories(patency_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
+target_compile_options(patency_flags INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+  -ffp-contract=off -fno-math-errno -fno-trapping-math ${PATENCY_ARCH})
+if(PATENCY_ISA MATCHES "native|avx512")
+  target_compile_options(patency_flags INTERFACE -mprefer-vector-width=512)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+if(PATENCY_SANITIZE)
+  target_compile_options(patency_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(patency_flags INTERFACE -fsanitize=address,undefined)
+endif()

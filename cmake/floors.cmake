@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+# One static library per folder of src/patency, each linked only against lower floors
+# (docs/ARCHITECTURE.md). tools/check_layers checks the same order on the includes.
+set(PATENCY_FLOORS)
+# Linked last to first, so that a folder sees those before it.
+foreach(folder base kernel config shape physics particles search pairs bodies schemes analysis io stages report verify)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/${folder}/*.cpp)
+  if(NOT sources)
+    continue()
+  endif()
+  add_library(patency_${folder} STATIC ${sources})
+  target_link_libraries(patency_${folder} PRIVATE patency_flags PUBLIC ${PATENCY_FLOORS} OpenMP::OpenMP_CXX fmt::fmt)
+  list(PREPEND PATENCY_FLOORS patency_${folder})
+endforeach()
+
+function(patency_use folder)   # a folder's own libraries
+  if(TARGET patency_${folder})
+    target_link_libraries(patency_${folder} PRIVATE ${ARGN})
+  endif()
+endfunction()
+patency_use(config yaml-cpp nlohmann_json::nlohmann_json)
+patency_use(shape Eigen3::Eigen)
+patency_use(schemes Eigen3::Eigen)
+patency_use(analysis Eigen3::Eigen)
+patency_use(io nlohmann_json::nlohmann_json ZLIB::ZLIB hdf5::hdf5 VTK::IOXML VTK::CommonCore VTK::CommonDataModel)
+patency_use(stages nlohmann_json::nlohmann_json)
+patency_use(verify nlohmann_json::nlohmann_json)
