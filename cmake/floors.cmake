@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-# One static library per folder of src/patency, each linked only against lower floors
-# (docs/ARCHITECTURE.md). tools/check_layers checks the same order on the includes.
+# One static library per folder of src/patency, in the order of floors.txt, each linked only against those
+# before it (docs/ARCHITECTURE.md). tools/check_layers checks the same order on the includes.
 set(PATENCY_FLOORS)
+file(STRINGS ${CMAKE_SOURCE_DIR}/src/patency/floors.txt folders REGEX "^[a-z]")
+list(TRANSFORM folders REPLACE " +" ";")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/floors.txt)
 # Linked last to first, so that a folder sees those before it.
-foreach(folder base kernel config shape physics particles search pairs bodies schemes analysis io stages report verify)
+foreach(folder ${folders})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/${folder}/*.cpp)
   if(NOT sources)
     continue()
