@@ -58,7 +58,7 @@ TEST(Outlets, steady_state_stays) {
 }
 
 TEST(Outlets, rcr_relaxes_exponentially) {
-    // THEORY.md, Windkessel: the update for a constant flow, any step.
+    // THEORY (9.3): any step.
     for (double dt : {1e-6, 0.01, 0.8, 5.0}) {
         const double q = 0.4e-6, end = 700 + 1e10 * q;
         EXPECT_NEAR(advanced(rcr, {9000, 0}, {3.0, dt}, q)[0], end + (9000 - end) * std::exp(-dt / 0.8), 1e-9);

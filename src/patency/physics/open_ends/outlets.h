@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies behind an opening: 0-D models that turn the flow out of it into the pressure on it. One step is exact for a
 // flow (and an intramyocardial pressure) that is constant or linear in time over the step, so it is stable for any step.
-// Knows no particles; the state of a model is two numbers that the caller keeps. THEORY.md, Windkessel.
+// Knows no particles; the state of a model is two numbers that the caller keeps. THEORY section 9.
 #pragma once
 
 #include <array>
@@ -12,14 +12,13 @@
 
 namespace patency {
 
-/// p = p_d + R Q.
+/// p = p_d + R Q. THEORY (9.1).
 struct Resistance {
     double resistance;              // R, Pa s/m3
     double distal_pressure = 0;     // p_d, Pa
 };
 
-/// p = p_c + R_p Q,  C dp_c/dt = Q - (p_c - p_d) / R_d  (three-element Windkessel; Westerhof, Lankhaar and Westerhof,
-/// Med Biol Eng Comput 47, 2009).
+/// p = p_c + R_p Q,  C dp_c/dt = Q - (p_c - p_d) / R_d: three-element Windkessel, THEORY (9.2).
 struct Rcr {
     double proximal_resistance;     // R_p, Pa s/m3, >= 0
     double compliance;              // C, m3/Pa
@@ -27,7 +26,7 @@ struct Rcr {
     double distal_pressure = 0;     // p_d, Pa
 };
 
-/// Coronary bed with the heart muscle's squeeze (Kim et al., Ann Biomed Eng 38, 2010; open loop):
+/// Coronary bed with the heart muscle's squeeze (Kim et al., Ann Biomed Eng 38, 2010; open loop), THEORY (9.5):
 ///   p = p_1 + R_a Q                                arteries
 ///   C_a dp_1/dt = Q - (p_1 - p_2) / R_am           arterial compliance against the atmosphere
 ///   C_im d(p_2 - p_im)/dt = (p_1 - p_2) / R_am - (p_2 - p_v) / R_v    small vessels inside the muscle
@@ -73,7 +72,7 @@ double outlet_pressure(const OutletModel& model, const OutletState& state, doubl
 OutletState advanced(const OutletModel& model, const OutletState& state, TimeStep step, double flow_begin,
                      double flow_end);
 /// The same for a flow that is constant over the step (the volume that left, over the step). For an Rcr:
-/// p_c <- p_d + R_d Q + (p_c - p_d - R_d Q) exp(-dt / (R_d C)).
+/// p_c <- p_d + R_d Q + (p_c - p_d - R_d Q) exp(-dt / (R_d C)), THEORY (9.3).
 OutletState advanced(const OutletModel& model, const OutletState& state, TimeStep step, double flow);
 
 /// Response to an unknown flow that is constant over the step.
@@ -82,7 +81,7 @@ OutletResponse step_response(const OutletModel& model, const OutletState& state,
 OutletResponse step_response(const OutletModel& model, const OutletState& state, TimeStep step, double flow_begin);
 
 /// Pressure over flow for an oscillation e^(i w t) [Pa s/m3], w >= 0 in rad/s, distal and muscle pressures held.
-/// At w = 0 the sum of the resistances. Rcr: R_p + R_d / (1 + i w R_d C).
+/// At w = 0 the sum of the resistances. Rcr: R_p + R_d / (1 + i w R_d C), THEORY (9.4).
 std::complex<double> impedance(const OutletModel& model, double angular_frequency);
 
 }  // namespace patency
