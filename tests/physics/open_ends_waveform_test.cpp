@@ -17,7 +17,9 @@ using Numbers = std::vector<double>;
 
 const Numbers times{0.1, 0.3, 0.4, 0.9}, values{1, 3, -2, 1};
 
-Waveform table(Interpolation interpolation, Repeat repeat) { return make_waveform(times, values, interpolation, repeat); }
+Waveform table(Interpolation interpolation, Repeat repeat) {
+    return make_waveform(times, values, interpolation, repeat);
+}
 
 Numbers sampled(std::size_t count, double (*f)(double), double period) {
     Numbers v;

@@ -172,11 +172,13 @@ std::complex<double> impedance(const OutletModel& model, double angular_frequenc
     return std::visit(
         Overloaded{[](const Resistance& m) { return Complex{m.resistance}; },
                    [&](const Rcr& m) {
-                       return m.proximal_resistance + m.distal_resistance / (1.0 + iw * m.distal_resistance * m.compliance);
+                       const double distal = m.distal_resistance;
+                       return m.proximal_resistance + distal / (1.0 + iw * distal * m.compliance);
                    },
                    [&](const Coronary& m) {
-                       const Complex small = m.venous_resistance / (1.0 + iw * m.venous_resistance * m.myocardial_compliance);
-                       const Complex bed = m.microvascular_resistance + small;
+                       const double vein = m.venous_resistance;
+                       const Complex muscle = vein / (1.0 + iw * vein * m.myocardial_compliance);
+                       const Complex bed = m.microvascular_resistance + muscle;
                        return m.arterial_resistance + bed / (1.0 + iw * m.arterial_compliance * bed);
                    }},
         model);
