@@ -4,6 +4,7 @@
 // do not know. Skipped where the data are absent.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -137,6 +138,38 @@ TEST_F(AgainstSvFsi, outlet_flux_gives_outlet_pressure) {
         peak = std::max(peak, acting);
     }
     EXPECT_LT(worst, 0.001 * peak);   // their traction is imposed weakly; a tenth of our own solver's bar of 1 %
+}
+
+TEST(PublishedWaveforms, are_accepted_as_periodic) {
+    // Boileau et al. 2015 (carotid, aortic bifurcation; m3/s), and the inflow of the svFSI pipe (mL/s, in negative).
+    if (!exists(reference / "boileau2015")) GTEST_SKIP() << "the reference data are not beside this checkout";
+    const auto load = [](const char* name, int skip) {
+        std::vector<double> times, values;
+        for (const auto& row : read_rows(reference / name, skip, 2)) {
+            times.push_back(row[0]);
+            values.push_back(row[1]);
+        }
+        return make_waveform(times, values, Interpolation::monotone_cubic, Repeat::periodic);
+    };
+    const Waveform carotid = load("boileau2015/cca_inlet.dat", 0), aorta = load("boileau2015/ibif_inlet.dat", 0);
+    const Waveform pipe = load("svFSI_pipe_RCR/lumen_inlet.flow", 1);
+    EXPECT_NEAR(carotid.period().value(), 1.1, 1e-12);
+    EXPECT_NEAR(carotid.mean(), 6.5e-6, 0.5e-6);   // the article's mean flow in the carotid, 6.5 mL/s
+    EXPECT_GT(aorta.mean(), 0);
+    EXPECT_NEAR(pipe(0.0625), -4.782786, 1e-12);
+    // Sixteen modes carry a published flow: what they leave is below 1 % of its range at every time.
+    for (const Waveform& f : {carotid, aorta, pipe}) {
+        const FourierSeries modes = make_fourier_series(f, 16);
+        const double period = f.period().value();
+        double low = f(0), high = f(0), worst = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const double t = period * i / 1000;
+            low = std::min(low, f(t));
+            high = std::max(high, f(t));
+            worst = std::max(worst, std::abs(f(t) - modes(t)));
+        }
+        EXPECT_LT(worst, 0.01 * (high - low));
+    }
 }
 
 }  // namespace
