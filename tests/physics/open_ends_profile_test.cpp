@@ -164,6 +164,31 @@ TEST(Womersley, profile_carries_the_flow_at_any_time) {
     }
 }
 
+TEST(Womersley, snapshot_is_the_profile) {
+    // The third mode has alpha = 5.0 and the error (alpha / 256)^4 / 40 = 4e-9 of its velocity; one-sided at the wall
+    // ten times that.
+    for (Section section : sections) {
+        const WomersleyProfile profile(section, 0.002, 1060, 0.0035, pulse());
+        for (double t : {0.0, 0.3, 5.2}) {
+            const ProfileSnapshot snapshot = profile.at(t);
+            for (double s : {0.0, 0.001, 0.0077, 0.3, 0.6031, 0.99, 0.9961, 0.998, 0.9999, 1.0})
+                EXPECT_NEAR(snapshot(s), profile.velocity(s, t), 4e-8 * 5e-6 / section_area(section, 0.002)) << s;
+            EXPECT_EQ(snapshot(1.2), 0);
+        }
+    }
+}
+
+TEST(Womersley, snapshot_error_is_as_stated) {
+    const double alpha = 30, w = alpha * alpha * 0.0035 / (1060 * 4e-6);
+    const FourierSeries flow{0, {1e-6}, {0}, 2 * pi / w};
+    const WomersleyProfile profile(Section::circular, 0.002, 1060, 0.0035, flow);
+    for (double phase : {0.0, 0.1, 0.2, 0.3, 0.4}) {   // centred stencils, s < 255/256: (30/256)^4 / 43 = 4.4e-6
+        const ProfileSnapshot snapshot = profile.at(phase * flow.period);
+        for (double s = 0; s < 0.996; s += 0.0013)
+            EXPECT_NEAR(snapshot(s), profile.velocity(s, phase * flow.period), 4.6e-6 * 1e-6 / (pi * 4e-6)) << s;
+    }
+}
+
 TEST(Womersley, pressure_gradient_makes_the_flow_and_the_flow_the_gradient) {
     const FourierSeries gradient{300, {200, 10}, {-100, 50}, 0.9};
     for (Section section : sections) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/physics/open_ends/profile.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <utility>
 
@@ -118,11 +120,40 @@ WomersleyProfile::WomersleyProfile(Section section, double radius, double densit
     for (double& s : mean_velocity_.sines) s /= area;
     for (std::size_t k = 1; k <= flow.modes(); ++k)
         modes_.emplace_back(section, womersley_number(radius, flow.frequency(k), density, viscosity));
+    for (const WomersleyMode& mode : modes_)
+        for (int i = 0; i <= ProfileSnapshot::intervals; ++i)
+            shapes_.push_back(mode.shape(double(i) / ProfileSnapshot::intervals));
 }
 
 double WomersleyProfile::velocity(double s, double time) const {
     return mean_velocity_.mean * parabola_profile(section_, s) +
            sum_modes(modes_, mean_velocity_, time, [s](const WomersleyMode& m) { return m.shape(s); }).real();
+}
+
+ProfileSnapshot WomersleyProfile::at(double time) const {
+    constexpr std::size_t places = ProfileSnapshot::intervals + 1;
+    ProfileSnapshot snapshot;
+    for (std::size_t i = 0; i < places; ++i)
+        snapshot.velocities_.push_back(mean_velocity_.mean *
+                                       parabola_profile(section_, double(i) / ProfileSnapshot::intervals));
+    const double turns = time / mean_velocity_.period - std::floor(time / mean_velocity_.period);
+    for (std::size_t k = 1; k <= modes_.size(); ++k) {
+        const Complex now = mean_velocity_.amplitude(k) * std::polar(1.0, 2 * pi * double(k) * turns);
+        for (std::size_t i = 0; i < places; ++i)
+            snapshot.velocities_[i] += (now * shapes_[(k - 1) * places + i]).real();
+    }
+    return snapshot;
+}
+
+double ProfileSnapshot::operator()(double s) const {
+    if (s > 1) return 0;
+    const double x = s * intervals;
+    // Four places around x; beyond the axis the profile is even, at the wall the four are one-sided.
+    const int first = std::min(int(x) - 1, intervals - 3);
+    const auto v = [&](int k) { return velocities_[std::size_t(std::abs(first + k))]; };
+    const double t = x - first;
+    return v(0) * (t - 1) * (t - 2) * (t - 3) / -6 + v(1) * t * (t - 2) * (t - 3) / 2 -
+           v(2) * t * (t - 1) * (t - 3) / 2 + v(3) * t * (t - 1) * (t - 2) / 6;
 }
 
 double WomersleyProfile::wall_shear_stress(double time) const {

@@ -56,6 +56,20 @@ private:
     std::complex<double> wall_shear_, mobility_;
 };
 
+/// Velocity over a section at one instant, tabulated: a few nanoseconds for each of many particles.
+class ProfileSnapshot {
+public:
+    static constexpr int intervals = 256;   // over s = 0..1
+
+    /// Axial velocity [m/s] at s, by cubic interpolation; zero outside. Off by (alpha / intervals)^4 / 40 of the mode's
+    /// velocity: 4e-6 at alpha = 30.
+    double operator()(double s) const;
+
+private:
+    friend class WomersleyProfile;
+    std::vector<double> velocities_;   // at s = k / intervals
+};
+
 /// Velocity over a section at any time, from the Fourier modes of the flow.
 class WomersleyProfile {
 public:
@@ -65,6 +79,8 @@ public:
 
     /// Axial velocity [m/s] at distance s a from the axis.
     double velocity(double s, double time) const;
+    /// All of it at one instant, for many places.
+    ProfileSnapshot at(double time) const;
     /// Wall shear stress [Pa], positive when the liquid near the wall moves forward.
     double wall_shear_stress(double time) const;
     /// Pressure gradient -dp/dx [Pa/m].
@@ -75,6 +91,7 @@ private:
     double radius_, viscosity_;
     FourierSeries mean_velocity_;
     std::vector<WomersleyMode> modes_;
+    std::vector<std::complex<double>> shapes_;   // of every mode, at the places of a snapshot
 };
 
 /// The flow [m3/s; planar m2/s] that a periodic pressure gradient -dp/dx [Pa/m] drives; then WomersleyProfile applies.
