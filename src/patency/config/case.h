@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case as typed numbers: what a deck says, in SI, defaults filled in. No reading or checking here:
+// schema.cpp says what each key means, deck.h reads and writes. A member's default is the key's default.
+// All of config/ is in namespace patency::deck: deck::Opening is what the deck says about an opening, and other
+// folders have openings of their own.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "patency/base/vec.h"
+
+namespace patency::deck {
+
+/// A part of the deck that is kept as it stands for a later stage: YAML on one line; empty if absent.
+struct Kept {
+    std::string yaml;
+    bool operator==(const Kept&) const = default;
+};
+
+// Every choice of words in a deck is an enum whose words(...) stand in the order of its enumerators.
+using Words = std::vector<std::string_view>;
+
+enum class Mode { steady, periodic };
+inline Words words(Mode) { return {"steady", "periodic"}; }
+
+enum class ShapeType { channel, box, tube, cone, nozzle, branches };
+inline Words words(ShapeType) { return {"channel", "box", "tube", "cone", "nozzle", "branches"}; }
+
+enum class BloodLaw { newtonian, carreau_yasuda, casson, power_law };
+inline Words words(BloodLaw) { return {"newtonian", "carreau_yasuda", "casson", "power_law"}; }
+
+enum class WallMotion { rigid, one_way, deformable };
+inline Words words(WallMotion) { return {"rigid", "one_way", "deformable"}; }
+
+enum class Slip { no_slip, free_slip };
+inline Words words(Slip) { return {"no_slip", "free_slip"}; }
+
+enum class OpeningType { velocity, flow, pressure, resistance, rcr, coronary };
+inline Words words(OpeningType) { return {"velocity", "flow", "pressure", "resistance", "rcr", "coronary"}; }
+
+enum class VelocityProfile { plug, parabola, womersley, table, developed_startup };
+inline Words words(VelocityProfile) { return {"plug", "parabola", "womersley", "table", "developed_startup"}; }
+
+enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley };
+inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley"}; }
+
+enum class InitialPressure { zero, linear };
+inline Words words(InitialPressure) { return {"zero", "linear"}; }
+
+enum class SchemeName { sph, paper };
+inline Words words(SchemeName) { return {"sph", "paper"}; }
+
+enum class Precision { mixed, double_ };   // "double" is a word of C++
+inline Words words(Precision) { return {"mixed", "double"}; }
+
+enum class PressureReference { moving, fixed };
+inline Words words(PressureReference) { return {"moving", "fixed"}; }
+
+/// The deck's word for a choice.
+template <class E>
+std::string_view word_of(E value) {
+    return words(value)[std::size_t(value)];
+}
+
+struct About {   // `case`
+    std::string name;
+    Mode mode = Mode::steady;
+    std::optional<double> period;   ///< s; there in mode periodic
+    bool operator==(const About&) const = default;
+};
+
+struct NozzleSection {
+    double z = 0;          ///< m, along the axis from the start
+    double diameter = 0;   ///< m
+    bool operator==(const NozzleSection&) const = default;
+};
+
+struct Branch {
+    std::string name;
+    Vec3 from, to;                   ///< m
+    std::vector<double> diameters;   ///< m: at `from` and at `to`
+    bool operator==(const Branch&) const = default;
+};
+
+/// A shape by its measures. Members that do not belong to the type stay at their defaults.
+struct Shape {
+    ShapeType type = ShapeType::channel;
+    double gap = 0;                                     ///< channel: m between the plates (y = 0 and y = gap)
+    double length = 0;                                  ///< channel (along x), tube, cone: m
+    Vec3 size;                                          ///< box: m
+    std::array<bool, 3> periodic{false, false, false};  ///< box
+    bool planar = false;                                ///< box: two-dimensional, z = 0
+    double diameter = 0;                                ///< tube: m
+    std::vector<double> diameters;                      ///< cone: m, at the start and at the end
+    std::vector<NozzleSection> sections;                ///< nozzle
+    std::vector<Branch> branches;                       ///< branches
+    Vec3 axis{1, 0, 0};                                 ///< tube, cone, nozzle: direction, any length
+    Vec3 start;                                         ///< tube, cone, nozzle: m, the axis' first point
+    bool operator==(const Shape&) const = default;
+
+    bool is_planar() const { return type == ShapeType::channel || (type == ShapeType::box && planar); }
+};
+
+struct Geometry {   // exactly one of surface, network, shape
+    std::optional<std::filesystem::path> surface, network;
+    std::optional<Shape> shape;
+    std::optional<std::string> unit;    ///< of the surface's coordinates: m, cm, mm or um
+    std::optional<std::string> space;   ///< axes of the surface's coordinates: LPS or RAS
+    Kept lesion, extensions;
+    bool operator==(const Geometry&) const = default;
+};
+
+struct Blood {
+    double density = 0;   ///< kg/m^3
+    BloodLaw law = BloodLaw::newtonian;
+    double viscosity = 0;                             ///< newtonian: Pa s
+    double mu_0 = 0, mu_inf = 0;                      ///< carreau_yasuda: Pa s at rest and at infinite shear
+    double lambda = 0;                                ///< carreau_yasuda: s
+    double n = 0;                                     ///< carreau_yasuda, power_law: exponent
+    double a = 0;                                     ///< carreau_yasuda: Yasuda's exponent (2: Carreau)
+    double yield_stress = 0, plastic_viscosity = 0;   ///< casson: Pa, Pa s
+    double consistency = 0;                           ///< power_law: Pa s^n
+    double min_viscosity = 0;                         ///< power_law: Pa s
+    double max_viscosity = 0;                         ///< power_law, casson: Pa s
+    bool operator==(const Blood&) const = default;
+};
+
+struct Wall {
+    WallMotion motion = WallMotion::rigid;
+    Slip slip = Slip::no_slip;
+    std::map<std::string, Vec3> velocity;   ///< m/s, by the wall's name, or "all"
+    std::optional<double> thickness;        ///< m
+    std::optional<std::string> law;
+    Kept plaque;
+    bool operator==(const Wall&) const = default;
+};
+
+/// mean + sum_k cosines[k] cos(2 pi (k+1) t / period) + sines[k] sin(2 pi (k+1) t / period)
+struct Fourier {
+    double mean = 0;                     ///< in the unit of the waveform
+    double period = 0;                   ///< s
+    std::vector<double> cosines, sines;  ///< equally many
+    bool operator==(const Fourier&) const = default;
+};
+
+/// A velocity [m/s], flow [m^3/s] or pressure [Pa] over time, as its opening's type says.
+struct Waveform {   // exactly one of file, times + values, fourier
+    std::optional<std::filesystem::path> file;   ///< CSV, columns time and value named with units
+    std::vector<double> times;                   ///< s, increasing
+    std::vector<double> values;
+    std::optional<Fourier> fourier;
+    std::optional<double> period;                ///< s; absent: the case's period
+    bool operator==(const Waveform&) const = default;
+};
+
+/// A velocity profile over the relative radius: velocity over mean velocity.
+struct ProfileTable {
+    std::vector<double> radii;    ///< 0 (axis) to 1 (wall), increasing
+    std::vector<double> speeds;   ///< relative; scaled to the opening's mean
+    bool operator==(const ProfileTable&) const = default;
+};
+
+struct Opening {
+    OpeningType type = OpeningType::pressure;
+    VelocityProfile profile = VelocityProfile::plug;   ///< velocity, flow
+    std::optional<ProfileTable> profile_table;         ///< profile table
+    std::optional<double> velocity, peak_velocity;     ///< velocity: m/s into the domain; mean or largest
+    std::optional<double> flow;                        ///< flow: m^3/s (planar m^2/s) into the domain
+    std::optional<double> pressure;                    ///< pressure: Pa
+    std::optional<Waveform> waveform;                  ///< velocity (mean), flow, pressure: instead of the constant
+    double ramp = 0;                                   ///< velocity, flow, pressure: s, smooth rise from zero
+    double resistance = 0;                             ///< resistance: Pa s/m^3
+    double proximal_resistance = 0;                    ///< rcr, coronary: Pa s/m^3
+    double distal_resistance = 0;                      ///< rcr, coronary: Pa s/m^3
+    double compliance = 0;                             ///< rcr, coronary: m^3/Pa
+    double distal_pressure = 0;                        ///< resistance, rcr, coronary: Pa
+    std::optional<double> initial_pressure;            ///< rcr, coronary: Pa in the compliance at t = 0
+    bool operator==(const Opening&) const = default;
+};
+
+struct Aorta {
+    std::optional<double> pressure;   ///< Pa, mean
+    bool operator==(const Aorta&) const = default;
+};
+
+struct Initial {
+    InitialVelocity velocity = InitialVelocity::rest;
+    std::optional<double> speed;   ///< m/s: mean (plug, parabola) or amplitude (taylor_green)
+    InitialPressure pressure = InitialPressure::zero;
+    bool operator==(const Initial&) const = default;
+};
+
+struct Numerics {
+    SchemeName scheme = SchemeName::sph;
+    double spacing = 0;                       ///< m between particles
+    double smoothing_ratio = 1.3;             ///< h over spacing
+    std::optional<double> sound_speed;        ///< m/s; absent: chosen (THEORY.md)
+    std::optional<double> sound_speed_factor; ///< sound speed over reference speed, instead of sound_speed
+    std::optional<double> reference_speed;    ///< m/s, the largest expected; absent: from the openings
+    Precision precision = Precision::mixed;
+    double duration = 0;                      ///< s of simulated time
+    double advection_cfl = 0.25;              // Zhang et al. 2020, dual-criteria stepping
+    double acoustic_cfl = 0.6;                // the same
+    int threads = 0;                          ///< 0: all
+    PressureReference pressure_reference = PressureReference::moving;
+    int seed = 1;
+    bool operator==(const Numerics&) const = default;
+};
+
+struct Probe {
+    std::string name;
+    Vec3 point;   ///< m
+    bool operator==(const Probe&) const = default;
+};
+
+struct LineProfile {
+    std::string name;
+    Vec3 from, to;               ///< m
+    int points = 51;
+    std::vector<double> times;   ///< s; empty: at the end
+    bool operator==(const LineProfile&) const = default;
+};
+
+struct Output {
+    std::optional<double> interval;   ///< s between frames; absent: the last state only
+    std::vector<std::string> fields{"velocity", "pressure"};
+    std::vector<Probe> probes;
+    std::vector<LineProfile> profiles;
+    std::optional<double> average_from;          ///< s; means are taken from then to the end
+    std::optional<double> checkpoint_interval;   ///< s of simulated time; absent: at the end of stages
+    bool operator==(const Output&) const = default;
+};
+
+/// A variant of the deck: keys as in "numerics.spacing" and what they are in this run.
+struct Run {
+    std::string name;
+    std::map<std::string, Kept> set;
+    bool operator==(const Run&) const = default;
+};
+
+struct Case {
+    int version = 1;
+    About about;
+    Geometry geometry;
+    Blood blood;
+    Wall wall;
+    Vec3 body_force;   ///< m/s^2
+    std::map<std::string, Opening> openings;
+    Aorta aorta;
+    Initial initial;
+    Numerics numerics;
+    Output output;
+    std::vector<Run> runs;
+    bool operator==(const Case&) const = default;
+};
+
+}  // namespace patency::deck

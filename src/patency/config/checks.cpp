@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/config/checks.h"
+
+#include <algorithm>
+#include <set>
+
+#include "patency/base/text.h"
+#include "patency/base/units.h"
+
+namespace patency::deck {
+
+namespace {
+
+constexpr double fewest_across = 4;   // fewer particles across a vessel do not even see its walls
+
+class Checker {
+public:
+    Checker(const Case& c, const Node& root, Mistakes& mistakes) : case_(c), root_(root), mistakes_(mistakes) {}
+
+    void check() {
+        check_geometry();
+        check_blood();
+        check_openings();
+        check_initial();
+        check_output();
+        check_names("runs", case_.runs);
+    }
+
+private:
+    // The sentence belongs to `key`; nothing is said if it, or one of the others the rule reads, is wrong already.
+    void expect(bool holds, const std::string& key, const std::string& sentence, std::vector<std::string> others = {}) {
+        others.push_back(key);
+        const bool is_known = std::any_of(others.begin(), others.end(), [&](const auto& k) { return mistakes_.touch(k); });
+        if (!holds && !is_known) mistakes_.add(place_of(root_, key), key, sentence);
+    }
+
+    template <class Items>
+    void check_names(const std::string& path, const Items& items) {
+        std::set<std::string> names;
+        for (std::size_t i = 0; i < items.size(); ++i)
+            expect(names.insert(items[i].name).second, path + "." + std::to_string(i) + ".name",
+                   "a second " + double_quoted(items[i].name) + "; names must differ");
+    }
+
+    void check_increasing(const std::string& path, const std::vector<double>& values, std::string_view unit) {
+        for (std::size_t i = 1; i < values.size(); ++i)
+            expect(values[i] > values[i - 1], path + "." + std::to_string(i),
+                   "must be greater than the one before, " + format_quantity(values[i - 1], unit));
+    }
+
+    void check_geometry() {
+        const Geometry& g = case_.geometry;
+        const std::string path = "geometry.";
+        if (g.unit) {
+            const std::vector<std::string> known = unit_names(Dimension::length);
+            expect(std::find(known.begin(), known.end(), *g.unit) != known.end(), path + "unit",
+                   double_quoted(*g.unit) + " is not one of " + join(known, ", ", " or "));
+        }
+        if (g.space) expect(*g.space == "LPS" || *g.space == "RAS", path + "space", double_quoted(*g.space) + " is not LPS or RAS");
+        if (g.surface)
+            expect(g.unit.has_value(), path + "surface",
+                   "needs geometry.unit: a surface file does not say whether it counts in mm or in m", {path + "unit"});
+        if (g.shape) check_shape(*g.shape, path + "shape.");
+    }
+
+    void check_shape(const Shape& s, const std::string& path) {
+        if (s.type == ShapeType::box) {
+            expect(s.size.x > 0 && s.size.y > 0 && (s.planar || s.size.z > 0), path + "size",
+                   "the sides must be greater than zero");
+            const bool is_endless = s.periodic[0] && s.periodic[1] && (s.planar || s.periodic[2]);
+            expect(!is_endless || case_.openings.empty(), "openings", "a box that is periodic all around has no openings",
+                   {path + "periodic"});
+        }
+        expect(norm(s.axis) > 0, path + "axis", "must not be zero");
+        if (s.type == ShapeType::nozzle) {
+            expect(s.sections.size() >= 2, path + "sections", "at least two cross-sections are needed");
+            for (std::size_t i = 1; i < s.sections.size(); ++i)
+                expect(s.sections[i].z > s.sections[i - 1].z, path + "sections." + std::to_string(i) + ".z",
+                       "must be greater than the one before, " + format_quantity(s.sections[i - 1].z, "mm"),
+                       {path + "sections." + std::to_string(i - 1)});
+        }
+        check_names(path + "branches", s.branches);
+        for (std::size_t i = 0; i < s.branches.size(); ++i)
+            expect(s.branches[i].from != s.branches[i].to, path + "branches." + std::to_string(i) + ".to",
+                   "is the same point as `from`");
+        check_spacing(s);
+    }
+
+    void check_spacing(const Shape& s) {
+        double narrowest = 0;
+        switch (s.type) {
+            case ShapeType::channel: narrowest = s.gap; break;
+            case ShapeType::tube: narrowest = s.diameter; break;
+            case ShapeType::box: narrowest = std::min(s.size.x, s.size.y); break;
+            case ShapeType::cone:
+                if (!s.diameters.empty()) narrowest = *std::min_element(s.diameters.begin(), s.diameters.end());
+                break;
+            case ShapeType::nozzle:
+                for (const NozzleSection& section : s.sections)
+                    narrowest = narrowest == 0 ? section.diameter : std::min(narrowest, section.diameter);
+                break;
+            case ShapeType::branches:
+                for (const Branch& branch : s.branches)
+                    for (const double d : branch.diameters) narrowest = narrowest == 0 ? d : std::min(narrowest, d);
+                break;
+        }
+        expect(narrowest >= fewest_across * case_.numerics.spacing * (1 - 1e-12), "numerics.spacing",
+               "leaves fewer than 4 particles across the narrowest place, " + format_quantity(narrowest, "mm") +
+                   "; at least 12 give a sensible answer",
+               {"geometry.shape"});
+    }
+
+    void check_blood() {
+        const Blood& b = case_.blood;
+        if (b.law == BloodLaw::carreau_yasuda)
+            expect(b.mu_0 >= b.mu_inf, "blood.mu_0", "must not be below mu_inf", {"blood.mu_inf"});
+        if (b.law == BloodLaw::power_law)
+            expect(b.max_viscosity >= b.min_viscosity, "blood.max_viscosity", "must not be below min_viscosity",
+                   {"blood.min_viscosity"});
+        if (b.law == BloodLaw::casson)
+            expect(b.max_viscosity >= b.plastic_viscosity, "blood.max_viscosity", "must not be below plastic_viscosity",
+                   {"blood.plastic_viscosity"});
+    }
+
+    void check_openings() {
+        bool is_pressure_set = false;
+        for (const auto& [name, opening] : case_.openings) {
+            const std::string path = "openings." + name;
+            if (opening.type != OpeningType::velocity && opening.type != OpeningType::flow) is_pressure_set = true;
+            if (opening.waveform) check_waveform(*opening.waveform, path + ".waveform");
+            if (opening.profile == VelocityProfile::womersley)
+                expect(opening.waveform.has_value(), path + ".profile", "womersley needs a waveform: it is the profile of a pulse",
+                       {path});
+            if (opening.profile == VelocityProfile::developed_startup)
+                expect(!opening.waveform, path + ".profile", "developed_startup needs a constant, not a waveform", {path});
+            if (opening.profile_table) check_profile(*opening.profile_table, path + ".profile_table");
+        }
+        expect(case_.openings.empty() || is_pressure_set, "openings",
+               "every opening prescribes a flow; one of them must set the pressure (pressure, resistance, rcr or coronary)");
+    }
+
+    void check_profile(const ProfileTable& table, const std::string& path) {
+        expect(table.radii.size() == table.speeds.size() && table.radii.size() >= 2, path + ".speeds",
+               "as many as radii are needed, at least two", {path + ".radii"});
+        check_increasing(path + ".radii", table.radii, "");
+    }
+
+    void check_waveform(const Waveform& waveform, const std::string& path) {
+        if (!waveform.times.empty()) {
+            expect(waveform.values.size() == waveform.times.size() && waveform.times.size() >= 2, path + ".values",
+                   "there are " + std::to_string(waveform.values.size()) + " values at " +
+                       std::to_string(waveform.times.size()) + " times; as many are needed, at least two",
+                   {path + ".times"});
+            check_increasing(path + ".times", waveform.times, "s");
+            const std::optional<double> period = waveform.period ? waveform.period : case_.about.period;
+            expect(!period || waveform.times.back() <= *period * (1 + 1e-12), path + ".times",
+                   "end at " + format_quantity(waveform.times.back(), "s") + ", beyond the period",
+                   {path + ".period", "case.period"});
+        } else {
+            expect(waveform.values.empty(), path + ".values", "stand without times", {path});
+        }
+        if (waveform.fourier)
+            expect(waveform.fourier->cosines.size() == waveform.fourier->sines.size(), path + ".fourier.sines",
+                   "there must be as many as cosines", {path + ".fourier"});
+    }
+
+    void check_initial() {
+        if (case_.initial.pressure == InitialPressure::linear)
+            expect(!case_.openings.empty(), "initial.pressure", "linear needs openings with pressures", {"openings"});
+    }
+
+    void check_output() {
+        const Output& output = case_.output;
+        const double duration = case_.numerics.duration;
+        const std::string limit = "is beyond the duration, " + format_quantity(duration, "s");
+        const auto expect_within = [&](double time, const std::string& key) {
+            expect(time <= duration * (1 + 1e-12), key, limit, {"numerics.duration"});
+        };
+        if (output.average_from)
+            expect(*output.average_from < duration, "output.average_from", "is not before the end, " + format_quantity(duration, "s"),
+                   {"numerics.duration"});
+        if (output.interval) expect_within(*output.interval, "output.interval");
+        check_names("output.probes", output.probes);
+        check_names("output.profiles", output.profiles);
+        for (std::size_t i = 0; i < output.profiles.size(); ++i) {
+            const std::string path = "output.profiles." + std::to_string(i);
+            expect(output.profiles[i].from != output.profiles[i].to, path + ".to", "is the same point as `from`");
+            check_increasing(path + ".times", output.profiles[i].times, "s");
+            for (std::size_t k = 0; k < output.profiles[i].times.size(); ++k)
+                expect_within(output.profiles[i].times[k], path + ".times." + std::to_string(k));
+        }
+        std::set<std::string> fields;
+        for (std::size_t i = 0; i < output.fields.size(); ++i)
+            expect(fields.insert(output.fields[i]).second, "output.fields." + std::to_string(i),
+                   "a second " + double_quoted(output.fields[i]));
+    }
+
+    const Case& case_;
+    const Node& root_;
+    Mistakes& mistakes_;
+};
+
+}  // namespace
+
+void check_case(const Case& c, const Node& root, Mistakes& mistakes) { Checker(c, root, mistakes).check(); }
+
+}  // namespace patency::deck

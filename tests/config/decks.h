@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decks for the tests: valid ones that together use every key, and a small one to break.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace patency::deck {
+
+/// A valid deck whose lines the tests of mistakes count on.
+inline const std::string pipe_deck = R"(version: 1
+case: {name: pipe}
+geometry:
+  shape: {type: tube, diameter: "3 mm", length: "15 mm"}
+blood:
+  density: "1060 kg/m^3"
+  viscosity: "3.5 mPa s"
+openings:
+  inlet:
+    type: velocity
+    velocity: "0.1 m/s"
+  outlet:
+    type: pressure
+    pressure: "0 mmHg"
+numerics:
+  spacing: "0.2 mm"
+  duration: "1 s"
+)";
+
+/// pipe_deck with the first `part` replaced.
+inline std::string pipe_with(const std::string& part, const std::string& replacement) {
+    std::string text = pipe_deck;
+    return text.replace(text.find(part), part.size(), replacement);
+}
+
+inline const std::vector<std::string> valid_decks{
+    pipe_deck,
+    R"(version: 1
+case: {name: everything, mode: periodic, period: "0.8 s"}
+geometry:
+  surface: lumen.stl
+  unit: mm
+  space: LPS
+  lesion: {from: [1, 2.5, "a, b"], note: "a \"quoted\" text: # no comment", empty: ~, truth: true, text: "true"}
+  extensions: [{opening: inlet, length: "4 mm"}]
+blood: {density: "1.06 g/mL", law: carreau_yasuda, mu_0: "56 cP", mu_inf: "0.0345 P", lambda: "1.902 s", n: 0.22, a: 1.25}
+wall:
+  motion: deformable
+  slip: no_slip
+  thickness: "0.8 mm"
+  law: neo_hookean
+  plaque: {young: "1 MPa"}
+openings:
+  inlet:
+    type: flow
+    profile: womersley
+    ramp: "0.1 s"
+    waveform: {fourier: {mean: "60 mL/min", period: "0.8 s", cosines: ["10 mL/min", "0 mL/min"], sines: ["1 mL/s", "3 mm^3/s"]}}
+  side:
+    type: velocity
+    profile: table
+    profile_table: {radii: [0, 0.5, 1], speeds: [2, 1.5, 0]}
+    waveform: {times: ["0 s", "0.3 s", "0.7 s"], values: ["0.1 m/s", "20 cm/s", "0.1 m/s"], period: "0.8 s"}
+  a: {type: pressure, waveform: {file: waves/p.csv}}
+  b: {type: resistance, resistance: "100 mmHg s/mL", distal_pressure: "5 mmHg"}
+  c: {type: rcr, proximal_resistance: "9 Wood", distal_resistance: "1e5 dyn s/cm^5", compliance: "0.01 mL/mmHg", initial_pressure: "80 mmHg"}
+  d: {type: coronary, proximal_resistance: "1e9 Pa s/m^3", distal_resistance: "3 mmHg min/mL", compliance: "1e-6 cm^5/dyn", distal_pressure: "1 kPa"}
+aorta: {pressure: "93 mmHg"}
+initial: {velocity: parabola, speed: "0.1 m/s", pressure: linear}
+numerics:
+  scheme: paper
+  spacing: "0.1 mm"
+  smoothing_ratio: 1.4
+  sound_speed_factor: 12
+  reference_speed: "0.7 m/s"
+  precision: double
+  duration: "4 s"
+  advection_cfl: 0.2
+  acoustic_cfl: 0.5
+  threads: 2
+  pressure_reference: fixed
+  seed: 7
+output:
+  interval: "10 ms"
+  fields: [velocity, pressure, density]
+  probes: [{name: throat, point: ["1 mm", "0.2 cm", "-3 um"]}]
+  profiles:
+    - {name: middle, from: ["0 m", "0 m", "0 m"], to: ["1 mm", "0 m", "0 m"], points: 21, times: ["0.1 s", "0.2 s"]}
+  average_from: "3.2 s"
+  checkpoint_interval: "0.5 min"
+)",
+    R"(version: 1
+geometry: {shape: {type: channel, gap: "1 mm", length: "8 mm"}}
+blood: {density: "1000 kg/m^3", law: newtonian, viscosity: "1 mPa s"}
+wall: {velocity: {all: ["1 m/s", "0 m/s", "0 m/s"]}}
+body_force: ["9.81 m/s^2", "0 m/s^2", "0 m/s^2"]
+openings:
+  inlet: {type: velocity, profile: developed_startup, peak_velocity: "0.05 m/s"}
+  outlet: {type: pressure, pressure: "-10 kPa"}
+numerics: {spacing: "0.04 mm", duration: "1 s", sound_speed: "5 m/s"}
+runs:
+  - {name: d12, set: {numerics.spacing: "0.08333333333333333 mm"}}
+  - name: paper
+    set:
+      numerics.scheme: paper
+      geometry.shape: {type: channel, gap: "2 mm", length: "8 mm"}
+      output.fields: [velocity]
+)",
+    R"(version: 1
+geometry: {shape: {type: box, size: ["1 m", "1 m", "0 m"], periodic: [true, true, false], planar: true}}
+blood: {density: "1000 kg/m^3", law: power_law, consistency: "0.017 Pa s^n", n: 0.7, min_viscosity: "1 cP", max_viscosity: "1 P"}
+initial: {velocity: taylor_green, speed: "1 m/s"}
+numerics: {spacing: "2 cm", duration: "2 s"}
+)",
+    R"({"version": 1,
+ "geometry": {"shape": {"type": "nozzle", "axis": [0, 0, 2], "start": ["0 m", "0 m", "-1 cm"],
+   "sections": [{"z": "0 mm", "diameter": "12 mm"}, {"z": "22.685 mm", "diameter": "4 mm"}]}},
+ "blood": {"density": "1056 kg/m^3", "law": "casson", "yield_stress": "0.05 dyn/cm^2", "plastic_viscosity": "3.5 mPa·s",
+   "max_viscosity": "100 mPa*s"},
+ "openings": {"inlet": {"type": "flow", "profile": "parabola", "flow": "5.21 cm³/s"},
+   "outlet": {"type": "pressure", "pressure": "1 atm"}},
+ "numerics": {"spacing": "0.33 mm", "duration": "1 s"}}
+)",
+    R"(version: 1
+geometry:
+  shape:
+    type: branches
+    branches:
+      - {name: trunk, from: ["0 mm", "0 mm", "0 mm"], to: ["10 mm", "0 mm", "0 mm"], diameters: ["4 mm", "3.5 mm"]}
+      - {name: left, from: ["10 mm", "0 mm", "0 mm"], to: ["17 mm", "7 mm", "0 mm"], diameters: ["3 mm", "2 mm"]}
+blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
+numerics: {spacing: "0.2 mm", duration: "1 s"}
+)",
+    R"(version: 1
+geometry: {shape: {type: cone, diameters: ["4 mm", "2 mm"], length: "20 mm", axis: [1, 1, 0.5]}}
+blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
+wall: {slip: free_slip}
+numerics: {spacing: "0.2 mm", duration: "1 s"}
+)",
+};
+
+}  // namespace patency::deck
