@@ -63,7 +63,18 @@ private:
 
 }  // namespace
 
-Measures measure(const Lumen& lumen, double resolution) {
+Measures measure(const Lumen& whole, double resolution) {
+    Lumen lumen = whole;
+    // The faces of a periodic box cut like openings.
+    const Vec3 extent = lumen.bounds.high - lumen.bounds.low, middle = 0.5 * (lumen.bounds.low + lumen.bounds.high);
+    const auto cut_along = [&](const Vec3& axis, double period) {
+        if (period <= 0) return;
+        for (double side : {-1.0, 1.0})
+            lumen.openings.push_back({"", middle + 0.5 * side * period * axis, side * axis, 0, 0, norm(extent), false});
+    };
+    cut_along({1, 0, 0}, lumen.period.x);
+    cut_along({0, 1, 0}, lumen.period.y);
+    cut_along({0, 0, 1}, lumen.period.z);
     const Bounds box = grown(lumen.bounds, 4 * resolution);
     const Vec3 size = box.high - box.low;
     double half = 0.5 * resolution;

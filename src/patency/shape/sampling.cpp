@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 #include "patency/base/errors.h"
+#include "patency/shape/measure.h"
 
 namespace patency {
 
@@ -18,12 +19,11 @@ double stretched(double spacing, double length) {
     return length > 0 ? length / std::max(1.0, std::round(length / spacing)) : spacing;
 }
 
-// One candidate: where, how deep, and to which part it belongs (0: the lumen, k + 1: past opening k).
+// A lattice point that may be taken: where, how deep, and in which part of the lumen.
 struct Candidate {
     Vec3 x;
     double depth;
-    std::size_t part;
-    bool reached_by_fluid;
+    std::size_t part;   // 0: the lumen; 2k + 1: fluid past opening k; 2k + 2: farther out
 };
 
 // The box around the lumen and its continuations, not past the ends of periodic axes.
@@ -40,11 +40,31 @@ Bounds region_of(const Lumen& lumen, const PointsExtent& extent, double spacing)
     return region;
 }
 
-// The length past an opening, rounded to whole cells [m].
+// The length past an opening [m], rounded to whole cells if the lattice lies along the opening's normal.
 double whole_cells(const Lattice& lattice, const Opening& opening, double length) {
     const Vec3 n = transpose(lattice.frame.rotation) * opening.normal;
-    const double cell = std::abs(n.x) * lattice.cell.x + std::abs(n.y) * lattice.cell.y + std::abs(n.z) * lattice.cell.z;
-    return cell * std::round(length / cell);
+    const double along[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+    const double cells[3] = {lattice.cell.x, lattice.cell.y, lattice.cell.z};
+    for (int k = 0; k < 3; ++k)
+        if (along[k] > 1 - 1e-12) return cells[k] * std::round(length / cells[k]);
+    return length;
+}
+
+// The volume between the wall and its outer face, per part [m^3].
+std::vector<double> wall_volumes(const Lumen& lumen, double spacing, double thickness, const FittedPoints& ends) {
+    if (thickness <= 0) return std::vector<double>(1 + 2 * lumen.openings.size(), 0.0);
+    Lumen outer = lumen;
+    outer.distance = offset_by(lumen.distance, thickness);
+    outer.bounds = grown(lumen.bounds, thickness);
+    for (Opening& opening : outer.openings) opening.reach += thickness;
+    std::vector<double> volumes{measure(outer, 0.5 * spacing).volume - lumen.volume};
+    for (std::size_t k = 0; k < lumen.openings.size(); ++k) {
+        const double r = lumen.openings[k].radius;
+        const double ring = std::numbers::pi * thickness * (2 * r + thickness);
+        volumes.push_back(ring * ends.fluid_end[k]);
+        volumes.push_back(ring * (ends.wall_end[k] - ends.fluid_end[k]));
+    }
+    return volumes;
 }
 
 }  // namespace
@@ -86,53 +106,68 @@ std::vector<Vec3> make_lattice(const Lumen& lumen, double spacing) {
                           [&](const Vec3& x) { return contains(lumen, x); });
 }
 
+bool lattice_fits(const Lumen& lumen) {
+    return lumen.fit.x > 0 && lumen.fit.y > 0 && (lumen.planar || lumen.fit.z > 0);
+}
+
 FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const PointsExtent& extent) {
     const Lattice lattice = fitted_lattice(lumen, spacing);
-    FittedPoints result{{}, {}, {}, {}, lattice.cell_volume()};
-    const double outermost = std::max(extent.wall_thickness, spacing);   // points just outside may become fluid
-    for (const Opening& opening : lumen.openings)
-        result.fluid_extension.push_back(whole_cells(lattice, opening, extent.fluid_extension));
+    const std::size_t openings = lumen.openings.size(), parts = 1 + 2 * openings;
+    FittedPoints result;
+    result.volume = lattice.cell_volume();
+    for (const Opening& opening : lumen.openings) {
+        result.fluid_end.push_back(whole_cells(lattice, opening, extent.fluid_extension));
+        result.wall_end.push_back(
+            whole_cells(lattice, opening, std::max(extent.wall_extension, extent.fluid_extension)));
+    }
 
     std::vector<Candidate> candidates;
-    const auto keep = [&](const Vec3& x) {
+    const bool fits = lattice_fits(lumen);
+    // Points a little farther out may be needed to make up a volume.
+    const double outermost = extent.wall_thickness + (fits ? 0 : spacing);
+    lattice_points(lattice, region_of(lumen, extent, spacing), [&](const Vec3& x) {
         const double depth = lumen.distance.value(x);
         if (depth >= outermost) return false;
         const int opening = opening_beyond(lumen, x, outermost);
-        const std::size_t part = std::size_t(opening + 1);
-        const double s = part == 0 ? 0 : opening_coordinates(lumen.openings[part - 1], x).s;
-        const double fluid_end = part == 0 ? 0 : result.fluid_extension[part - 1];
-        if (s > std::max(extent.wall_extension, fluid_end)) return false;
-        candidates.push_back({x, depth, part, s <= fluid_end});
-        return false;   // they are kept here, with their depths
-    };
-    lattice_points(lattice, region_of(lumen, extent, spacing), keep);
-
-    std::vector<std::size_t> order(candidates.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return candidates[a].depth < candidates[b].depth; });
-    std::vector<bool> is_fluid(candidates.size());
-    for (std::size_t part = 0; part <= lumen.openings.size(); ++part) {
-        const double volume = part == 0 ? lumen.volume : lumen.openings[part - 1].area * result.fluid_extension[part - 1];
-        const auto wanted = std::size_t(std::llround(volume / result.volume));
-        std::size_t count = 0;
-        for (std::size_t k : order) {
-            if (count == wanted) break;
-            if (candidates[k].part != part || !candidates[k].reached_by_fluid) continue;
-            is_fluid[k] = true;
-            ++count;
+        if (opening < 0) {
+            candidates.push_back({x, depth, 0});
+            return false;   // they are kept here, with their depths
         }
-        if (count < wanted)
+        const std::size_t k = std::size_t(opening);
+        const double s = opening_coordinates(lumen.openings[k], x).s;
+        if (s <= result.wall_end[k]) candidates.push_back({x, depth, 2 * k + (s <= result.fluid_end[k] ? 1 : 2)});
+        return false;
+    });
+
+    std::vector<std::vector<std::size_t>> of_part(parts);   // in lattice order
+    for (std::size_t k = 0; k < candidates.size(); ++k) of_part[candidates[k].part].push_back(k);
+    const auto shell = fits ? std::vector<double>(parts, Bounds::infinity) : wall_volumes(lumen, spacing, extent.wall_thickness, result);
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t k = part == 0 ? 0 : (part - 1) / 2;
+        const bool filler = part > 0 && part % 2 == 0;
+        const double volume = part == 0 ? lumen.volume
+                                        : lumen.openings[k].area * (filler ? result.wall_end[k] - result.fluid_end[k]
+                                                                           : result.fluid_end[k]);
+        const auto inside = std::size_t(std::llround(volume / result.volume));
+        const std::size_t all = std::isinf(shell[part])
+                                    ? of_part[part].size()
+                                    : std::size_t(std::llround((volume + shell[part]) / result.volume));
+        std::vector<std::size_t> by_depth = of_part[part];
+        std::stable_sort(by_depth.begin(), by_depth.end(), [&](std::size_t a, std::size_t b) {
+            return candidates[a].depth < candidates[b].depth;
+        });
+        if (by_depth.size() < inside)
             throw GeometryError(fmt::format("A spacing of {:.3g} m gives {} points where {} are needed: the lumen is "
-                                            "too narrow for it; take a smaller spacing.", spacing, count, wanted));
-        result.fluid_count.push_back(count);
-        for (std::size_t k = 0; k < candidates.size(); ++k)   // in lattice order
-            if (is_fluid[k] && candidates[k].part == part) result.fluid.push_back(candidates[k].x);
+                                            "too narrow for it; take a smaller spacing.",
+                                            spacing, by_depth.size(), inside));
+        // In lattice order, for neighbours in space to be neighbours in memory.
+        const std::size_t end = std::min(all, by_depth.size());
+        std::sort(by_depth.begin(), by_depth.begin() + std::ptrdiff_t(inside));
+        std::sort(by_depth.begin() + std::ptrdiff_t(inside), by_depth.begin() + std::ptrdiff_t(end));
+        for (std::size_t n = 0; n < end; ++n)
+            (n >= inside ? result.wall : filler ? result.filler : result.fluid).push_back(candidates[by_depth[n]].x);
+        if (!filler) result.fluid_count.push_back(inside);
     }
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-        if (!is_fluid[k] && candidates[k].depth < extent.wall_thickness &&
-            (candidates[k].depth > 0 || candidates[k].reached_by_fluid))   // inside, past the fluid's end: nobody's
-            result.wall.push_back(candidates[k].x);
     return result;
 }
 

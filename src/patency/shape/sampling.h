@@ -30,25 +30,31 @@ std::vector<Vec3> lattice_points(const Lattice& lattice, const Bounds& region,
 /// The lattice points inside the lumen (contains), behind its openings.
 std::vector<Vec3> make_lattice(const Lumen& lumen, double spacing);
 
-/// How far the points reach.
+/// True if the lumen's lattice meets all its walls half-way between points: boxes, channels. It needs no relaxation.
+bool lattice_fits(const Lumen& lumen);
+
+/// How far the points reach. Past the openings: whole cells of a lattice that lies along them.
 struct PointsExtent {
     double wall_thickness = 0;    ///< points of the wall lie at 0 < distance < this [m]
-    double fluid_extension = 0;   ///< fluid this far past each opening [m], rounded to whole cells
-    double wall_extension = 0;    ///< wall this far past each opening [m]; at least fluid_extension + support
+    double fluid_extension = 0;   ///< fluid this far past each opening [m]
+    double wall_extension = 0;    ///< wall this far past each opening [m]; the fluid's and the kernel's support
 };
 
-/// Lattice points for the fluid and the wall.
+/// Points for the fluid and the wall.
 struct FittedPoints {
-    std::vector<Vec3> fluid;      ///< first those of the lumen, then those past opening 0, 1, ..
+    std::vector<Vec3> fluid;                ///< those of the lumen, then those past opening 0, 1, ..
     std::vector<Vec3> wall;
+    std::vector<Vec3> filler;               ///< inside, past the fluid's end, as far as the wall: for relaxation only
     std::vector<std::size_t> fluid_count;   ///< in the lumen, past opening 0, past opening 1, ..
-    std::vector<double> fluid_extension;    ///< how far the fluid reaches past each opening [m]
-    double volume;                ///< of one point [m^3]; planar: [m^2]
+    std::vector<double> fluid_end;          ///< where the fluid ends past each opening [m]
+    std::vector<double> wall_end;           ///< where the wall ends past each opening [m]
+    double volume;                          ///< of one point [m^3]; planar: [m^2]
 };
 
 /// The points of fitted_lattice. The number of fluid points times `volume` is the lumen's volume (area x
-/// extension past an opening) to within half a point: the points deepest inside are taken. So on a curved wall
-/// some points lie on the wrong side, by less than a spacing; relaxation moves them.
+/// extension past an opening) to within half a point, and the wall's likewise: the points deepest inside are taken.
+/// So on a curved wall some points lie on the wrong side of a face, by less than a spacing; relaxation moves them.
+/// Throws GeometryError if the lumen is too narrow to have that many.
 FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const PointsExtent& extent);
 
 }  // namespace patency
