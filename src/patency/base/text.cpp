@@ -86,6 +86,12 @@ bool is_utf8_text(std::string_view bytes) {
     return true;
 }
 
+bool is_plain_name(std::string_view text) {
+    return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     // Three rows of the table of distances between prefixes; the oldest is for swapped neighbours.
     std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);

@@ -28,6 +28,9 @@ std::string shortened(std::string_view text, std::size_t length = 60);
 /// Whether the bytes are UTF-8 without NUL.
 bool is_utf8_text(std::string_view bytes);
 
+/// Whether the text may name a file, a column or a key: letters, digits, _ and -, at most 64.
+bool is_plain_name(std::string_view text);
+
 /// Edits (insert, delete, replace, swap neighbours) that lead from a to b, upper and lower case alike.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 

@@ -23,8 +23,10 @@ public:
         check_openings();
         check_initial();
         check_output();
-        check_names("runs", case_.runs);
+        check_runs();
     }
+
+    void check_runs() { check_names("runs", case_.runs); }
 
 private:
     // The sentence belongs to `key`; nothing is said if it, or one of the others the rule reads, is wrong already.
@@ -37,9 +39,11 @@ private:
     template <class Items>
     void check_names(const std::string& path, const Items& items) {
         std::set<std::string> names;
-        for (std::size_t i = 0; i < items.size(); ++i)
-            expect(names.insert(items[i].name).second, path + "." + std::to_string(i) + ".name",
-                   "a second " + double_quoted(items[i].name) + "; names must differ");
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const std::string key = path + "." + std::to_string(i) + ".name", shown = double_quoted(shortened(items[i].name));
+            expect(is_plain_name(items[i].name), key, shown + " is no name; names have letters, digits, _ and -, at most 64");
+            expect(names.insert(items[i].name).second, key, "a second " + shown + "; names must differ");
+        }
     }
 
     void check_increasing(const std::string& path, const std::vector<double>& values, std::string_view unit) {
@@ -201,6 +205,8 @@ private:
 };
 
 }  // namespace
+
+void check_runs(const Case& c, const Node& root, Mistakes& mistakes) { Checker(c, root, mistakes).check_runs(); }
 
 void check_case(const Case& c, const Node& root, Mistakes& mistakes) { Checker(c, root, mistakes).check(); }
 

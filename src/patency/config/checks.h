@@ -9,5 +9,7 @@ namespace patency::deck {
 
 /// Add a mistake for every broken rule; rules whose keys have mistakes already are passed over.
 void check_case(const Case& c, const Node& root, Mistakes& mistakes);
+/// The part of it that concerns `runs`.
+void check_runs(const Case& c, const Node& root, Mistakes& mistakes);
 
 }  // namespace patency::deck

@@ -86,6 +86,7 @@ std::vector<NamedCase> parse_runs(std::string_view text, const std::string& sour
     Scope scope;
     scope.mistakes = &mistakes;
     table_of<Case>().find("runs")->read(runs_node, scope.below("runs"), &holder);
+    check_runs(holder, root, mistakes);
     if (holder.runs.size() > most_runs) mistakes.add(runs_node.place, "runs", "more than 1000 runs; use patency sweep");
     if (!mistakes.empty()) refuse(mistakes);
 

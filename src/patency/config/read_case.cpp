@@ -34,12 +34,6 @@ std::optional<Dimension> dimension_of(const Row& row, const Scope& scope) {
 
 std::vector<std::string> as_strings(const Words& words) { return {words.begin(), words.end()}; }
 
-bool is_name(std::string_view text) {
-    return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    });
-}
-
 // A record being read: which of its keys may, must and do stand in the deck.
 class RecordReader {
 public:
@@ -263,7 +257,7 @@ bool expect_map(const Node& node, const Row& row, const Scope& scope) {
         return false;
     }
     for (const Node& key : node.keys)
-        if (row.form.item[0].kind != Form::Kind::kept && !is_name(key.text))   // kept: the keys are paths
+        if (row.form.item[0].kind != Form::Kind::kept && !is_plain_name(key.text))   // kept: the keys are paths
             scope.mistake(key, double_quoted(shortened(key.text)) + " is no name; names have letters, digits, _ and -, at most 64");
     return true;
 }

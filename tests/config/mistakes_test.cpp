@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decks that are wrong, one kind each: what is said, and where.
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "tests/config/decks.h"
+
+namespace patency::deck {
+namespace {
+
+std::string mistakes_in(const std::string& deck, const Settings& settings = {}) {
+    try {
+        parse_case(deck, "case.yaml", "", settings);
+    } catch (const DeckError& e) {
+        EXPECT_EQ(e.code(), ExitCode::deck);
+        return e.what();
+    }
+    return "accepted";
+}
+
+std::string run_mistakes_in(const std::string& deck) {
+    try {
+        parse_runs(deck, "case.yaml");
+    } catch (const DeckError& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+/// The report of exactly this one mistake.
+std::string only(const std::string& mistake) { return "case.yaml:" + mistake + "\n1 mistake; nothing was run."; }
+
+/// pipe_deck, lines 1-17, with lines behind it.
+std::string pipe_and(const std::string& lines) { return pipe_deck + lines; }
+
+TEST(Mistakes, MissingKey) {
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing: \"0.2 mm\"\n", "")),
+              only("16:3: numerics.spacing is missing: the distance between particles, for example \"0.2 mm\""));
+}
+
+TEST(Mistakes, MissingRecord) {
+    EXPECT_EQ(mistakes_in(pipe_with("blood:\n  density: \"1060 kg/m^3\"\n  viscosity: \"3.5 mPa s\"\n", "")),
+              only("1:1: blood is missing: the blood's properties; it needs density"));
+}
+
+TEST(Mistakes, MissingForAType) {
+    EXPECT_EQ(mistakes_in(pipe_with(", length: \"15 mm\"", "")),
+              only("4:10: geometry.shape.length is missing: the length along the axis, for example \"20 mm\""));
+    EXPECT_EQ(mistakes_in(pipe_with("type: pressure\n    pressure: \"0 mmHg\"", "type: resistance")),
+              only("13:5: openings.outlet.resistance is missing: pressure above the distal pressure over outflow, for example "
+                   "\"100 mmHg s/mL\""));
+}
+
+TEST(Mistakes, MisspelledKey) {
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  threds: 2\n  spacing:")),
+              only("16:3: numerics.threds: unknown key. Did you mean \"threads\"?"));
+    EXPECT_EQ(mistakes_in(pipe_with("case:", "csae:")), only("2:1: csae: unknown key. Did you mean \"case\"?"));
+}
+
+TEST(Mistakes, KeyInTheWrongPlace) {
+    EXPECT_EQ(mistakes_in(pipe_and("seed: 3\n")), only("18:1: seed: unknown key; a key of this name stands at numerics.seed"));
+}
+
+TEST(Mistakes, KeyOfAnotherType) {
+    EXPECT_EQ(mistakes_in(pipe_with("length: \"15 mm\"", "length: \"15 mm\", gap: \"1 mm\"")),
+              only("4:63: geometry.shape.gap: belongs to type channel, not to tube"));
+    EXPECT_EQ(mistakes_in(pipe_with("    pressure: \"0 mmHg\"", "    pressure: \"0 mmHg\"\n    resistance: \"1 Wood\"")),
+              only("15:17: openings.outlet.resistance: belongs to type resistance, not to pressure"));
+}
+
+TEST(Mistakes, MisspelledWord) {
+    EXPECT_EQ(mistakes_in(pipe_with("type: velocity", "type: velocty")),
+              only("10:11: openings.inlet.type: \"velocty\" is not one of velocity, flow, pressure, resistance, rcr or coronary. "
+                   "Did you mean \"velocity\"?"));
+}
+
+TEST(Mistakes, BareNumber) {
+    EXPECT_EQ(mistakes_in(pipe_with("\"0.2 mm\"", "0.2")),
+              only("16:12: numerics.spacing: 0.2 has no unit; a length is needed, for example \"0.2 mm\""));
+}
+
+TEST(Mistakes, WrongDimension) {
+    EXPECT_EQ(mistakes_in(pipe_with("\"0 mmHg\"", "\"100 mm\"")),
+              only("14:15: openings.outlet.pressure: 100 mm is a length; a pressure is needed, for example \"100 mmHg\""));
+}
+
+TEST(Mistakes, UnknownUnit) {
+    EXPECT_EQ(mistakes_in(pipe_with("3.5 mPa s", "3.5 mPas")),
+              only("7:14: blood.viscosity: there is no unit \"mPas\". Did you mean \"mPa s\"?; a viscosity is needed, for example "
+                   "\"3.5 mPa s\""));
+}
+
+TEST(Mistakes, NotANumber) {
+    EXPECT_EQ(mistakes_in(pipe_with("1 s", "nan s")),
+              only("17:13: numerics.duration: \"nan s\" is not a finite number; a time is needed, for example \"2 s\""));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  smoothing_ratio: .nan\n  spacing:")),
+              only("16:20: numerics.smoothing_ratio: \".nan\" does not start with a number"));
+}
+
+TEST(Mistakes, OutOfRange) {
+    EXPECT_EQ(mistakes_in(pipe_with("1060", "1.06")),
+              only("6:12: blood.density: \"1.06 kg/m^3\" is out of range: 500 kg/m^3 to 2000 kg/m^3"));
+    EXPECT_EQ(mistakes_in(pipe_with("\"0.2 mm\"", "\"0 mm\"")),
+              only("16:12: numerics.spacing: \"0 mm\" is out of range: above 0 mm, at most 1000 mm"));
+    EXPECT_EQ(mistakes_in(pipe_with("version: 1", "version: 2")), only("1:10: version: 2 is out of range: only 1"));
+}
+
+TEST(Mistakes, WrongKindOfValue) {
+    EXPECT_EQ(mistakes_in(pipe_with("\"0.2 mm\"", "[\"0.2 mm\"]")), only("16:12: numerics.spacing: is a list; a length is needed"));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  threads: 2.5\n  spacing:")),
+              only("16:12: numerics.threads: 2.5 is not a whole number"));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  smoothing_ratio: \"1.3\"\n  spacing:")),
+              only("16:20: numerics.smoothing_ratio: \"1.3\" is text; a number without quotes is needed"));
+    EXPECT_EQ(mistakes_in(pipe_and("output: 3\n")),
+              only("18:9: output: is 3; a record of keys is needed: interval, fields, probes, profiles, average_from, "
+                   "checkpoint_interval"));
+    EXPECT_EQ(mistakes_in(pipe_and("body_force: [\"1 m/s^2\", \"0 m/s^2\"]\n")),
+              only("18:13: body_force: a list of three is needed, for example [\"9.81 m/s^2\", \"9.81 m/s^2\", \"9.81 m/s^2\"]"));
+    EXPECT_EQ(mistakes_in(pipe_and("output: {fields: []}\n")),
+              only("18:18: output.fields: is an empty list; leave the key out or list something, for example [velocity, pressure]"));
+    EXPECT_EQ(mistakes_in(pipe_with("name: pipe", "name: ~")), only("2:14: case.name: is empty; text is needed"));
+    EXPECT_EQ(mistakes_in(pipe_with("type: tube, diameter: \"3 mm\"", "type: cone, diameters: [\"3 mm\"]")),
+              only("4:34: geometry.shape.diameters: has 1 items; 2 are needed, for example [\"1 mm\", \"1 mm\"]"));
+    EXPECT_EQ(mistakes_in(pipe_with("type: tube, diameter: \"3 mm\", length: \"15 mm\"",
+                                    "type: box, size: [\"1 m\", \"1 m\", \"1 m\"], planar: yes")),
+              only("4:59: geometry.shape.planar: yes is neither true nor false"));
+}
+
+TEST(Mistakes, RepeatedKey) {
+    EXPECT_EQ(mistakes_in(pipe_with("  viscosity:", "  density: \"1000 kg/m^3\"\n  viscosity:")),
+              only("7:3: blood.density: repeated; it stands already in line 6"));
+    EXPECT_EQ(mistakes_in(pipe_with("  outlet:", "  inlet:")), only("12:3: openings.inlet: repeated; it stands already in line 9"));
+}
+
+TEST(Mistakes, KeysThatExcludeEachOther) {
+    EXPECT_EQ(mistakes_in(pipe_with("velocity: \"0.1 m/s\"", "velocity: \"0.1 m/s\"\n    peak_velocity: \"0.2 m/s\"")),
+              only("12:20: openings.inlet.peak_velocity: stands beside velocity; only one of velocity, peak_velocity and waveform "
+                   "may be given"));
+    EXPECT_EQ(mistakes_in(pipe_with("    velocity: \"0.1 m/s\"\n", "")),
+              only("10:5: openings.inlet: needs one of velocity, peak_velocity or waveform"));
+}
+
+TEST(Mistakes, OpeningNameThatIsNoName) {
+    EXPECT_EQ(mistakes_in(pipe_with("  outlet:", "  out let:")),
+              only("12:3: openings: \"out let\" is no name; names have letters, digits, _ and -, at most 64"));
+}
+
+TEST(Mistakes, PeriodicWithoutPeriod) {
+    EXPECT_EQ(mistakes_in(pipe_with("name: pipe", "name: pipe, mode: periodic")),
+              only("2:7: case.period is missing: the time of one heart beat, for example \"0.8 s\""));
+}
+
+TEST(Mistakes, AcrossKeys) {
+    EXPECT_EQ(mistakes_in(pipe_with("\"0.2 mm\"", "\"1 mm\"")),
+              only("16:12: numerics.spacing: leaves fewer than 4 particles across the narrowest place, 3 mm; at least 12 give a "
+                   "sensible answer"));
+    EXPECT_EQ(mistakes_in(pipe_with("type: pressure\n    pressure: \"0 mmHg\"", "type: flow\n    flow: \"-1 mL/s\"")),
+              only("9:3: openings: every opening prescribes a flow; one of them must set the pressure (pressure, resistance, rcr "
+                   "or coronary)"));
+    EXPECT_EQ(mistakes_in(pipe_and("output: {average_from: \"2 s\"}\n")),
+              only("18:24: output.average_from: is not before the end, 1 s"));
+    EXPECT_EQ(mistakes_in(pipe_with("shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}", "surface: lumen.stl")),
+              only("4:12: geometry.surface: needs geometry.unit: a surface file does not say whether it counts in mm or in m"));
+    EXPECT_EQ(mistakes_in(pipe_with("velocity: \"0.1 m/s\"", "profile: womersley\n    velocity: \"0.1 m/s\"")),
+              only("11:14: openings.inlet.profile: womersley needs a waveform: it is the profile of a pulse"));
+    EXPECT_EQ(mistakes_in(pipe_with("velocity: \"0.1 m/s\"", "waveform: {times: [\"0 s\", \"0 s\"], values: [\"1 m/s\", \"2 m/s\"]}")),
+              only("11:31: openings.inlet.waveform.times.1: must be greater than the one before, 0 s"));
+    EXPECT_EQ(mistakes_in(pipe_with("velocity: \"0.1 m/s\"", "waveform: {times: [\"0 s\", \"1 s\"], values: [\"1 m/s\"]}")),
+              only("11:47: openings.inlet.waveform.values: there are 1 values at 2 times; as many are needed, at least two"));
+    EXPECT_EQ(mistakes_in(pipe_and("output: {probes: [{name: a, point: [\"0 m\", \"0 m\", \"0 m\"]}, {name: a, point: [\"0 m\", "
+                                   "\"0 m\", \"0 m\"]}]}\n")),
+              only("18:67: output.probes.1.name: a second \"a\"; names must differ"));
+    EXPECT_EQ(mistakes_in(pipe_with("length: \"15 mm\"", "length: \"15 mm\", axis: [0, 0, 0]")),
+              only("4:64: geometry.shape.axis: must not be zero"));
+}
+
+TEST(Mistakes, WaveformOfAnotherDimension) {
+    EXPECT_EQ(mistakes_in(pipe_with("velocity: \"0.1 m/s\"", "waveform: {times: [\"0 s\", \"1 s\"], values: [\"1 Pa\", \"2 m/s\"]}")),
+              only("11:48: openings.inlet.waveform.values.0: 1 Pa is a pressure; a velocity is needed, for example \"0.1 m/s\""));
+}
+
+TEST(Mistakes, AllAtOnceInTheOrderOfTheDeck) {
+    std::string deck = pipe_with("version: 1", "version: 3");
+    for (const auto& [part, replacement] : std::vector<std::pair<std::string, std::string>>{
+             {"type: tube", "type: tueb"}, {"1060", "1"}, {"viscosity", "vicosity"}, {"0.1 m/s", "0.1 mm"}, {"\"1 s\"", "1"}})
+        deck.replace(deck.find(part), part.size(), replacement);
+    const std::string report = mistakes_in(deck);
+    std::size_t at = 0;
+    for (const std::string start : {"case.yaml:1:10: version:", "case.yaml:4:17: geometry.shape.type:", "case.yaml:6:3: blood.viscosity is missing",
+                                    "case.yaml:6:12: blood.density:", "case.yaml:7:3: blood.vicosity:", "case.yaml:11:15: openings.inlet.velocity:",
+                                    "case.yaml:17:13: numerics.duration:"}) {
+        const std::size_t found = report.find(start, at);
+        ASSERT_NE(found, std::string::npos) << start << "\n" << report;
+        at = found;
+    }
+    EXPECT_TRUE(report.ends_with("\n7 mistakes; nothing was run.")) << report;
+}
+
+TEST(Mistakes, InSettings) {
+    EXPECT_EQ(mistakes_in(pipe_deck, {"numerics.spacing=5"}),
+              "--set numerics.spacing=5: numerics.spacing: 5 has no unit; a length is needed, for example \"0.2 mm\"\n"
+              "1 mistake; nothing was run.");
+    EXPECT_EQ(mistakes_in(pipe_deck, {"numerics.spacng=5 mm"}),
+              "--set numerics.spacng=5 mm: numerics.spacng: unknown key. Did you mean \"spacing\"?\n1 mistake; nothing was run.");
+    for (const char* bad : {"", "=", "numerics", "numerics.spacing", "numerics..spacing=1 mm", "numerics.spacing=[", "case.name.x=1",
+                            "version.1=2", ".=1"})
+        EXPECT_NE(mistakes_in(pipe_deck, {bad}), "accepted") << bad;
+}
+
+TEST(Mistakes, InRuns) {
+    const std::string runs = "runs:\n  - {name: a, set: {numerics.spacing: \"0.1 mm\"}}\n";
+    EXPECT_EQ(run_mistakes_in(pipe_and(runs + "  - {name: b, set: {numerics.spacing: \"1 s\"}}\n")),
+              only("20:39: numerics.spacing: 1 s is a time; a length is needed, for example \"0.2 mm\" (in run \"b\")"));
+    EXPECT_EQ(run_mistakes_in(pipe_and(runs + "  - {name: a, set: {numerics.threads: 2}}\n")),
+              only("20:12: runs.1.name: a second \"a\"; names must differ"));
+    EXPECT_EQ(run_mistakes_in(pipe_and(runs + "  - {name: ../b, set: {numerics.threads: 2}}\n")),
+              only("20:12: runs.1.name: \"../b\" is no name; names have letters, digits, _ and -, at most 64"));
+    EXPECT_EQ(run_mistakes_in(pipe_with("1060", "1") + runs + "  - {name: b, set: {numerics.threads: 2}}\n"),
+              only("6:12: blood.density: \"1 kg/m^3\" is out of range: 500 kg/m^3 to 2000 kg/m^3"))
+        << "a mistake of the deck is said once";
+}
+
+TEST(Hostile, NoFile) {
+    EXPECT_THROW(read_case("no/such/file.yaml"), FileError);
+    EXPECT_THROW(read_case(testing::TempDir()), FileError);
+}
+
+TEST(Hostile, NotADeck) {
+    EXPECT_EQ(mistakes_in(""), only("1:1: the deck is empty; it starts with \"version: 1\""));
+    EXPECT_EQ(mistakes_in("# nothing\n"), only("1:1: the deck is empty; it starts with \"version: 1\""));
+    EXPECT_EQ(mistakes_in("[1, 2]"), only("1:1: a deck is a record of keys; it starts with \"version: 1\""));
+    EXPECT_EQ(mistakes_in("\x89PNG\r\n\x1a\n"), only("1:1: this is not a text file in UTF-8"));
+    EXPECT_EQ(mistakes_in(std::string("version: 1\0", 11)), only("1:1: this is not a text file in UTF-8"));
+    EXPECT_EQ(mistakes_in(pipe_and("---\nversion: 1\n")), only("18:1: a second document starts here; a deck is one document"));
+    EXPECT_EQ(mistakes_in("? [a]\n: b\n"), only("1:3: a key must be a single word"));
+}
+
+TEST(Hostile, Syntax) {
+    EXPECT_EQ(mistakes_in(pipe_with("{name: pipe}", "{name: pipe")).substr(0, 12), "case.yaml:3:");
+    EXPECT_NE(mistakes_in("a: *b\n").find("case.yaml:1:4: not valid YAML"), std::string::npos);
+    EXPECT_NE(mistakes_in("a: b: c\n").find("case.yaml:1:5: not valid YAML"), std::string::npos);
+}
+
+TEST(Hostile, Nesting) {
+    for (const std::string opening : {"[", "{a: ", "- ", "? "}) {
+        std::string deck;
+        for (int i = 0; i < 20000; ++i) deck += opening;
+        EXPECT_NE(mistakes_in(deck).find("nested more than 32 deep"), std::string::npos) << opening;
+    }
+}
+
+TEST(Hostile, Aliases) {
+    std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+    for (int i = 1; i < 20; ++i)
+        bomb += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
+    EXPECT_NE(mistakes_in(bomb).find("more than 50000 values"), std::string::npos);
+    EXPECT_NE(mistakes_in("a: &a [*a]\n").find("an alias stands inside what it refers to"), std::string::npos);
+}
+
+TEST(Hostile, ManyMistakesEndSomewhere) {
+    std::string deck;
+    for (int i = 0; i < 20000; ++i) deck += "key_" + std::to_string(i) + ": 1\n";
+    EXPECT_TRUE(mistakes_in(deck).ends_with("1000 or more mistakes; nothing was run."));
+}
+
+TEST(Hostile, LargeFile) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "patency_large_deck.yaml";
+    std::ofstream(path) << std::string(3 << 20, '#');
+    EXPECT_THROW(read_case(path), DeckError);
+    std::filesystem::remove(path);
+}
+
+// Decks cut anywhere, and decks with random bytes changed, are read or refused, never anything else.
+TEST(Hostile, TruncatedAndDamagedDecks) {
+    const std::string& whole = valid_decks[1];
+    int refused = 0;
+    for (std::size_t length = 0; length < whole.size(); length += 7) refused += mistakes_in(whole.substr(0, length)) != "accepted";
+    EXPECT_GT(refused, 0);
+    std::mt19937 random(1);
+    const std::string signs = "{}[]:,-?&*!|>'\"%@`#\n\t \\0aZ~.";
+    for (int i = 0; i < 1500; ++i) {
+        std::string deck = valid_decks[i % valid_decks.size()];
+        for (int k = 0; k < 3; ++k) deck[random() % deck.size()] = signs[random() % signs.size()];
+        try {
+            parse_runs(deck);
+        } catch (const DeckError& e) {
+            ASSERT_TRUE(std::string(e.what()).ends_with("nothing was run.")) << deck;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace patency::deck
