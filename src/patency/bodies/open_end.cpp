@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/bodies/open_end.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/base/parallel.h"
+
+namespace patency {
+
+namespace {
+// How far inside the pressure is fitted, and how thick the slab is in which the flow is measured, in spacings.
+constexpr double fit_depth = 4;
+constexpr double slab_half_width = 2;
+// Over how many spacings beyond the plane the imposed pressure takes over. A particle that crosses the plane is not
+// grasped at once: that would knock on the whole column of blood with every layer that passes.
+constexpr double takeover = 1;
+double imposed_share(double s_in_spacings) {
+    const double q = std::clamp(s_in_spacings / takeover, 0.0, 1.0);
+    return q * q * (3 - 2 * q);
+}
+
+/// The velocity of blood that is about to enter at the far end of a buffer: as inside, at the same place of the section.
+/// A copy of the parent's would close a loop that only adds up the errors of the buffer. Exact for quadratic profiles,
+/// with the mean of both ends' gradients.                                                           THEORY.md (8.3)
+Vec3 velocity_inside(const FluidParticles& fluid, const OpenEnd& end, std::uint32_t parent, double spacing) {
+    const double depth = 0.5 * fit_depth * spacing, reach = depth;
+    const Vec3 x = fluid.position[parent] - (end.axial(fluid.position[parent]) + depth) * end.normal;
+    double sum = 0;
+    Vec3 velocity{};
+    for (const auto& m : end.inside) {
+        const Vec3 d = x - fluid.position[m.index];
+        const double q = dot(d, d) / (reach * reach);
+        if (q >= 1) continue;
+        const double w = (1 - q) * (1 - q);
+        const Mat3 gradient = 0.5 * (fluid.velocity_gradient[m.index] + fluid.velocity_gradient[parent]);
+        sum += w;
+        velocity += w * (fluid.velocity[m.index] + gradient * d);
+    }
+    return sum > 0 ? velocity / sum : fluid.velocity[parent];
+}
+
+}  // namespace
+
+void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends) {
+    for (OpenEnd& end : ends) {
+        end.buffer.clear();
+        end.inside.clear();
+        end.section.clear();
+    }
+    if (ends.empty()) return;
+    const auto& x = fluid.position;
+    // The scan is parallel, the lists are filled in order.
+    std::vector<std::vector<std::uint32_t>> near((fluid.size() + block_size - 1) / block_size);
+    for_each_block(fluid.size(), [&](std::size_t begin, std::size_t stop) {
+        auto& list = near[begin / block_size];
+        for (std::size_t i = begin; i < stop; ++i)
+            for (const OpenEnd& end : ends)
+                if (end.axial(x[i]) > -fit_depth * spacing && end.in_reach(x[i])) {
+                    list.push_back(std::uint32_t(i));
+                    break;
+                }
+    });
+    for (const auto& list : near)
+        for (const std::uint32_t i : list)
+            for (std::size_t k = 0; k < ends.size(); ++k) {
+                OpenEnd& end = ends[k];
+                const double s = end.axial(x[i]);
+                const bool member = fluid.opening[i] == std::int32_t(k) + 1;
+                if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
+                if (member) end.buffer.push_back({i, s, imposed_share(s / spacing)});
+                else if (s < 0) {   // a weight that vanishes at both ends: nothing jumps when a particle passes
+                    const double share = -s / (fit_depth * spacing);
+                    end.inside.push_back({i, s, share * (1 - share) * fluid.volume[i]});
+                }
+                const double hat = 1 - std::abs(s) / (slab_half_width * spacing);
+                if (hat > 0) end.section.push_back({i, s, hat * fluid.volume[i]});
+            }
+}
+
+void fit_pressure(OpenEnd& end, const std::function<double(std::uint32_t)>& pressure) {
+    double w = 0, ws = 0, wss = 0, wp = 0, wsp = 0;
+    for (const auto& m : end.inside) {
+        const double p = pressure(m.index);
+        w += m.weight, ws += m.weight * m.s, wss += m.weight * m.s * m.s;
+        wp += m.weight * p, wsp += m.weight * m.s * p;
+    }
+    if (end.kind == OpenEnd::Kind::pressure) {
+        end.slope = wss > 0 ? (wsp - end.pressure * ws) / wss : 0;
+        end.mean_pressure = end.pressure;
+    } else {
+        const double det = w * wss - ws * ws;
+        end.slope = det > 0 ? (w * wsp - ws * wp) / det : 0;
+        end.mean_pressure = w > 0 ? (wp - end.slope * ws) / w : 0;
+    }
+}
+
+void measure_flow(OpenEnd& end, const FluidParticles& fluid) {
+    double w = 0, wv = 0;
+    for (const auto& m : end.section) {
+        w += m.weight;
+        wv += m.weight * dot(fluid.velocity[m.index], end.normal);
+    }
+    end.flow = w > 0 ? end.area * wv / w : 0;
+}
+
+bool exchange_particles(FluidParticles& fluid, double spacing, std::span<OpenEnd> ends) {
+    if (ends.empty()) return false;
+    std::vector<std::uint32_t> order;   // who stays, then the parents of the copies
+    std::vector<bool> removed(fluid.size(), false);
+    struct Copy {
+        std::uint32_t parent;
+        std::int32_t end;
+        Vec3 velocity;
+    };
+    std::vector<Copy> copies;
+    bool any = false;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        OpenEnd& end = ends[k];
+        const std::int32_t number = std::int32_t(k) + 1;
+        for (const auto& m : end.buffer) {
+            const double s = end.axial(fluid.position[m.index]);
+            if (s < 0) {
+                fluid.opening[m.index] = 0;
+                copies.push_back({m.index, number, velocity_inside(fluid, end, m.index, spacing)});
+                end.crossed -= 1;
+                end.crossed_volume -= fluid.volume[m.index];
+            } else if (s > end.buffer_length) {
+                removed[m.index] = true;
+                any = true;
+            }
+        }
+        for (const auto& m : end.inside) {
+            if (fluid.opening[m.index] != 0 || !(end.axial(fluid.position[m.index]) >= 0)) continue;
+            fluid.opening[m.index] = number;
+            end.crossed += 1;
+            end.crossed_volume += fluid.volume[m.index];
+        }
+    }
+    if (!any && copies.empty()) return false;
+    order.reserve(fluid.size() + copies.size());
+    for (std::uint32_t i = 0; i < fluid.size(); ++i)
+        if (!removed[i]) order.push_back(i);
+    const std::size_t first_copy = order.size();
+    for (const Copy& copy : copies) order.push_back(copy.parent);
+    fluid.take(order);
+    for (std::size_t c = 0; c < copies.size(); ++c) {
+        const OpenEnd& end = ends[std::size_t(copies[c].end) - 1];
+        fluid.position[first_copy + c] += end.buffer_length * end.normal;
+        fluid.opening[first_copy + c] = copies[c].end;
+        fluid.velocity[first_copy + c] = copies[c].velocity;
+    }
+    return true;
+}
+
+}  // namespace patency

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// An open end of the domain: blood passes its plane in either direction. Beyond the plane stands a buffer of particles,
+// some spacings long, in which velocity or pressure is imposed. A buffer particle that enters the domain leaves a copy of
+// itself at the far end of the buffer; one that reaches the far end is removed.                     THEORY.md (8)
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "patency/bodies/fluid.h"
+
+namespace patency {
+
+struct OpenEnd {
+    enum class Kind { velocity, pressure };
+
+    std::string name;
+    Kind kind = Kind::pressure;
+    Vec3 centre, normal;      ///< of the plane; the normal points out of the domain
+    double area = 0;          ///< of the section [m^2]; the gap [m] in the plane
+    double reach = 0;         ///< particles farther than this from the axis belong to another branch [m]
+    double buffer_length = 0; ///< [m]
+    bool undisturbed = false; ///< keep every velocity along the axis in the buffer
+
+    /// Velocity end: what is imposed at position x and time t [m/s].
+    std::function<Vec3(const Vec3& x, double t)> velocity;
+    /// Pressure end: what is imposed at the plane, above the reference pressure [Pa].
+    double pressure = 0;
+
+    /// Measured at the plane by the last acoustic step: flow out of the domain [m^3/s], mean pressure there [Pa], and
+    /// its slope along the normal [Pa/m].
+    double flow = 0, mean_pressure = 0, slope = 0;
+    /// Audit: particles and volume that have crossed the plane outwards less inwards since the start.
+    std::int64_t crossed = 0;
+    double crossed_volume = 0;
+
+    /// Distance beyond the plane [m].
+    double axial(const Vec3& x) const { return dot(x - centre, normal); }
+    bool in_reach(const Vec3& x) const {
+        const Vec3 d = x - centre;
+        const double s = dot(d, normal);
+        return dot(d, d) - s * s < reach * reach;
+    }
+
+    /// Found anew in every advection step: indices of particles in the buffer, and of those near the plane.
+    struct Member {
+        std::uint32_t index;
+        double s;        ///< beyond the plane [m]
+        double weight;   ///< for averages over the section
+    };
+    std::vector<Member> buffer, inside, section;
+};
+
+/// Sorts the particles near every end into its lists.
+void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);
+
+/// Straight line through the pressure of the particles just inside: mean and slope at a velocity end; the slope through
+/// the imposed value at a pressure end. pressure(i) gives that of particle i [Pa].
+void fit_pressure(OpenEnd& end, const std::function<double(std::uint32_t)>& pressure);
+
+/// The flow through the plane, from the particles around it.
+void measure_flow(OpenEnd& end, const FluidParticles& fluid);
+
+/// Lets particles cross planes, copies those that enter and removes those at the far ends. The order of the new ones
+/// depends on (end, parent) only. Returns whether any was added or removed.
+bool exchange_particles(FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);
+
+}  // namespace patency

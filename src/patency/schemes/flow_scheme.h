@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scheme of moving blood particles: weakly compressible, first-order consistent, in difference form. One call of
+// step() is one advection step; it reads like the algorithm in THEORY.md (7).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "patency/bodies/fluid.h"
+#include "patency/bodies/open_end.h"
+#include "patency/bodies/wall.h"
+#include "patency/kernel/kernel.h"
+#include "patency/pairs/sum_over_neighbours.h"
+
+namespace patency {
+
+/// Numbers of the scheme. Their reasons stand where they are used.
+struct FlowNumerics {
+    double spacing = 0;             ///< dp [m]
+    double smoothing_ratio = 1.3;   ///< h / dp
+    bool planar = false;
+    double advection_cfl = 0.25;
+    double acoustic_cfl = 0.6;
+    double reference_speed = 0;     ///< a speed that will be reached, so that the first steps are not too long [m/s]
+    double dissipation = 0.3;       ///< of pressure, as a share of the Riemann solver's           THEORY.md (4.1)
+    double shift = 0.2;             ///< of particles towards where there are fewer                 THEORY.md (6.1)
+    bool free_slip = false;
+    Vec3 body_force{};              ///< acceleration [m/s^2]
+    LoopKind loop = LoopKind::packed;
+};
+
+/// What one advection step did.
+struct FlowStep {
+    double dt = 0;                  ///< [s]
+    int acoustic_steps = 0;
+    double fastest = 0;             ///< largest speed [m/s]
+};
+
+class FlowScheme {
+public:
+    virtual ~FlowScheme() = default;
+    /// One advection step from `time`, no longer than `longest` [s]. Throws DivergedError.
+    virtual FlowStep step(double time, double longest) = 0;
+    /// Calls the law of the open ends' pressures once per acoustic step: end.flow is measured, end.pressure is wanted.
+    std::function<void(std::span<OpenEnd>, double time, double dt)> update_ends;
+};
+
+/// Everything a scheme works on; it must outlive the scheme.
+struct FlowDomain {
+    FluidParticles& fluid;
+    WallParticles& wall;
+    std::vector<OpenEnd>& ends;
+    const Frame& frame;
+    /// Distance to the nearest wall surface, negative inside the blood [m].
+    std::function<double(const Vec3&)> distance;
+};
+
+enum class Precision { mixed, double_precision };
+
+std::unique_ptr<FlowScheme> make_flow_scheme(Precision precision, const FlowDomain& domain, const FluidMaterial& material,
+                                             const FlowNumerics& numerics);
+
+}  // namespace patency
