@@ -152,6 +152,7 @@ TEST(Units, PatternsAcceptWhatIsParsed) {
     }
     EXPECT_TRUE(std::regex_match("7 cm³/s", std::regex(quantity_pattern(Dimension::flow))));
     EXPECT_TRUE(std::regex_match("7 mPa·s", std::regex(quantity_pattern(Dimension::viscosity))));
+    EXPECT_TRUE(std::regex_match("30°", std::regex(quantity_pattern(Dimension::angle))));
     EXPECT_TRUE(std::regex_match("7 µm", std::regex(quantity_pattern(Dimension::length))));
 }
 

@@ -238,11 +238,14 @@ TEST(Hostile, NotADeck) {
     EXPECT_EQ(mistakes_in("\x89PNG\r\n\x1a\n"), only("1:1: this is not a text file in UTF-8"));
     EXPECT_EQ(mistakes_in(std::string("version: 1\0", 11)), only("1:1: this is not a text file in UTF-8"));
     EXPECT_EQ(mistakes_in(pipe_and("---\nversion: 1\n")), only("18:1: a second document starts here; a deck is one document"));
-    EXPECT_EQ(mistakes_in("? [a]\n: b\n"), only("1:3: a key must be a single word"));
+    for (const char* key : {"? [a]\n: b\n", "? {a: 1}\n: b\n", "? ~\n: b\n"})
+        EXPECT_EQ(mistakes_in(key), only("1:3: a key must be a single word")) << key;
+    EXPECT_NE(mistakes_in("? {a: 1, a: 2}\n: b\n").find("1:10: ?.a: repeated"), std::string::npos);
 }
 
 TEST(Hostile, Syntax) {
     EXPECT_EQ(mistakes_in(pipe_with("{name: pipe}", "{name: pipe")).substr(0, 12), "case.yaml:3:");
+    EXPECT_NE(mistakes_in("{\"version\": 1,\n").find("end of map"), std::string::npos) << "an unclosed bracket is called so";
     EXPECT_NE(mistakes_in("a: *b\n").find("case.yaml:1:4: not valid YAML"), std::string::npos);
     EXPECT_NE(mistakes_in("a: b: c\n").find("case.yaml:1:5: not valid YAML"), std::string::npos);
 }

@@ -134,12 +134,15 @@ private:
         parent.node.items.push_back(std::move(node));
     }
 
-    // The path of a key in the innermost open map.
+    // The path of a key in the innermost open map. What stands above may be a key itself ("? {a: 1}"), which is
+    // refused only when it ends, since yaml-cpp also takes what lacks its closing bracket for a key.
     std::string path_to(const std::string& key) const {
         std::string path;
         for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
-            const Node& node = open_[i].node;
-            path += (node.kind == Node::Kind::map ? node.keys.back().text : std::to_string(node.items.size())) + ".";
+            const Open& above = open_[i];
+            if (above.node.kind == Node::Kind::list) path += std::to_string(above.node.items.size());
+            else path += above.has_key ? above.node.keys.back().text : "?";
+            path += '.';
         }
         return path + key;
     }
