@@ -2,6 +2,8 @@
 // Blood: its particles and its material. How they move is a scheme's business.
 #pragma once
 
+#include <functional>
+
 #include "patency/particles/particle_set.h"
 
 namespace patency {
@@ -9,8 +11,9 @@ namespace patency {
 /// Weakly compressible blood: p = c^2 (rho - rho_0) above the reference pressure.             THEORY.md (2.1)
 struct FluidMaterial {
     double density = 1060;      ///< rho_0 [kg/m^3]
-    double viscosity = 3.5e-3;  ///< dynamic, where the law is Newtonian [Pa s]
+    double viscosity = 3.5e-3;  ///< dynamic; the largest there is, where it varies [Pa s]
     double sound_speed = 1;     ///< c of the artificial compressibility [m/s]
+    std::function<double(double)> viscosity_at;   ///< of the shear rate [1/s]; empty: constant
 
     double kinematic_viscosity() const { return viscosity / density; }
 };
@@ -22,7 +25,7 @@ struct FluidParticles : ParticleSet {
     Field<double> pressure{*this, "pressure", "Pa", Keep::state};             ///< above the reference pressure
     Field<double> pressure_rate{*this, "pressure_rate", "Pa/s", Keep::state};
     Field<double> volume{*this, "volume", "m^3", Keep::state};                ///< at rest; m^2 in the plane
-    Field<std::int32_t> opening{*this, "opening", "1", Keep::state};          ///< 0 inside, else 1 + the opening's index
+    Field<std::int32_t> opening{*this, "opening", "1", Keep::state};          ///< 0 inside, else 1 + the opening's index; negative in the tail
     Field<Vec3> pressure_gradient{*this, "pressure_gradient", "Pa/m", Keep::state};
     Field<Mat3> velocity_gradient{*this, "velocity_gradient", "1/s", Keep::scratch};   ///< row a: gradient of v_a
     Field<double> viscosity{*this, "viscosity", "Pa s", Keep::state};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "patency/base/parallel.h"
 
@@ -66,7 +67,7 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
             for (std::size_t k = 0; k < ends.size(); ++k) {
                 OpenEnd& end = ends[k];
                 const double s = end.axial(x[i]);
-                const bool member = fluid.opening[i] == std::int32_t(k) + 1;
+                const bool member = std::abs(fluid.opening[i]) == std::int32_t(k) + 1;
                 if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
                 if (member) end.buffer.push_back({i, s, imposed_share(s / spacing)});
                 else if (s < 0) {   // a weight that vanishes at both ends: nothing jumps when a particle passes
@@ -78,21 +79,25 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
             }
 }
 
-void fit_pressure(OpenEnd& end, const std::function<double(std::uint32_t)>& pressure) {
+void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std::uint32_t)>& pressure) {
     double w = 0, ws = 0, wss = 0, wp = 0, wsp = 0;
     for (const auto& m : end.inside) {
         const double p = pressure(m.index);
         w += m.weight, ws += m.weight * m.s, wss += m.weight * m.s * m.s;
         wp += m.weight * p, wsp += m.weight * m.s * p;
     }
-    if (end.kind == OpenEnd::Kind::pressure) {
-        end.slope = wss > 0 ? (wsp - end.pressure * ws) / wss : 0;
-        end.mean_pressure = end.pressure;
-    } else {
-        const double det = w * wss - ws * ws;
-        end.slope = det > 0 ? (w * wsp - ws * wp) / det : 0;
-        end.mean_pressure = w > 0 ? (wp - end.slope * ws) / w : 0;
+    const double det = w * wss - ws * ws;
+    const double free_slope = det > 0 ? (w * wsp - ws * wp) / det : 0;
+    const double free_mean = w > 0 ? (wp - free_slope * ws) / w : 0;
+    if (end.kind == OpenEnd::Kind::velocity) {
+        end.slope = free_slope;
+        end.mean_pressure = free_mean;
+        return;
     }
+    // A pressure p at the plane lets the flow answer by (free_mean - p) / (rho c) times the area.
+    const double answer = end.area / impedance;
+    end.mean_pressure = (end.pressure + end.resistance * (end.flow + answer * free_mean)) / (1 + end.resistance * answer);
+    end.slope = wss > 0 ? (wsp - end.mean_pressure * ws) / wss : 0;
 }
 
 void measure_flow(OpenEnd& end, const FluidParticles& fluid) {
@@ -104,40 +109,43 @@ void measure_flow(OpenEnd& end, const FluidParticles& fluid) {
     end.flow = w > 0 ? end.area * wv / w : 0;
 }
 
-bool exchange_particles(FluidParticles& fluid, double spacing, std::span<OpenEnd> ends) {
-    if (ends.empty()) return false;
-    std::vector<std::uint32_t> order;   // who stays, then the parents of the copies
-    std::vector<bool> removed(fluid.size(), false);
+void exchange_particles(FluidParticles& fluid, double spacing, double tail, std::span<OpenEnd> ends) {
+    if (ends.empty()) return;
     struct Copy {
         std::uint32_t parent;
-        std::int32_t end;
+        std::int32_t opening;
         Vec3 velocity;
     };
     std::vector<Copy> copies;
-    bool any = false;
+    std::vector<bool> removed(fluid.size(), false);
     for (std::size_t k = 0; k < ends.size(); ++k) {
         OpenEnd& end = ends[k];
         const std::int32_t number = std::int32_t(k) + 1;
         for (const auto& m : end.buffer) {
-            const double s = end.axial(fluid.position[m.index]);
-            if (s < 0) {
-                fluid.opening[m.index] = 0;
-                copies.push_back({m.index, number, velocity_inside(fluid, end, m.index, spacing)});
-                end.crossed -= 1;
-                end.crossed_volume -= fluid.volume[m.index];
-            } else if (s > end.buffer_length) {
-                removed[m.index] = true;
-                any = true;
-            }
+            const std::uint32_t i = m.index;
+            const double s = end.axial(fluid.position[i]);
+            removed[i] = fluid.opening[i] < 0 || s > end.buffer_length;
+            if (removed[i] || s >= 0) continue;
+            fluid.opening[i] = 0;
+            copies.push_back({i, number, end.kind == OpenEnd::Kind::pressure ? velocity_inside(fluid, end, i, spacing) : fluid.velocity[i]});
+            end.crossed -= 1;
+            end.crossed_volume -= fluid.volume[i];
         }
         for (const auto& m : end.inside) {
-            if (fluid.opening[m.index] != 0 || !(end.axial(fluid.position[m.index]) >= 0)) continue;
+            if (!(end.axial(fluid.position[m.index]) >= 0)) continue;
             fluid.opening[m.index] = number;
             end.crossed += 1;
             end.crossed_volume += fluid.volume[m.index];
         }
+        // The buffer goes on as if it repeated itself, so that its last particles have neighbours on all sides.
+        const auto add_tail = [&](const OpenEnd::Member& m) {
+            if (fluid.opening[m.index] == number && !removed[m.index] && end.axial(fluid.position[m.index]) < tail)
+                copies.push_back({m.index, -number, fluid.velocity[m.index]});
+        };
+        for (const auto& m : end.buffer) add_tail(m);
+        for (const auto& m : end.inside) add_tail(m);
     }
-    if (!any && copies.empty()) return false;
+    std::vector<std::uint32_t> order;
     order.reserve(fluid.size() + copies.size());
     for (std::uint32_t i = 0; i < fluid.size(); ++i)
         if (!removed[i]) order.push_back(i);
@@ -145,12 +153,11 @@ bool exchange_particles(FluidParticles& fluid, double spacing, std::span<OpenEnd
     for (const Copy& copy : copies) order.push_back(copy.parent);
     fluid.take(order);
     for (std::size_t c = 0; c < copies.size(); ++c) {
-        const OpenEnd& end = ends[std::size_t(copies[c].end) - 1];
+        const OpenEnd& end = ends[std::size_t(std::abs(copies[c].opening)) - 1];
         fluid.position[first_copy + c] += end.buffer_length * end.normal;
-        fluid.opening[first_copy + c] = copies[c].end;
+        fluid.opening[first_copy + c] = copies[c].opening;
         fluid.velocity[first_copy + c] = copies[c].velocity;
     }
-    return true;
 }
 
 }  // namespace patency

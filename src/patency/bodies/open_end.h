@@ -28,6 +28,8 @@ struct OpenEnd {
     std::function<Vec3(const Vec3& x, double t)> velocity;
     /// Pressure end: what is imposed at the plane, above the reference pressure [Pa].
     double pressure = 0;
+    /// How much more is wanted per flow out of the domain [Pa s/m^3]: the response of an outlet model over the step.
+    double resistance = 0;
 
     /// Measured at the plane by the last acoustic step: flow out of the domain [m^3/s], mean pressure there [Pa], and
     /// its slope along the normal [Pa/m].
@@ -58,13 +60,17 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
 
 /// Straight line through the pressure of the particles just inside: mean and slope at a velocity end; the slope through
 /// the imposed value at a pressure end. pressure(i) gives that of particle i [Pa].
-void fit_pressure(OpenEnd& end, const std::function<double(std::uint32_t)>& pressure);
+/// The value that an outlet model wants depends on the flow, and the flow answers to the value within the step, by the
+/// acoustic admittance of the section: both are solved for together, or a stiff model would ring.    THEORY.md (8.4)
+/// `impedance` is rho c of the blood [Pa s/m].
+void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std::uint32_t)>& pressure);
 
 /// The flow through the plane, from the particles around it.
 void measure_flow(OpenEnd& end, const FluidParticles& fluid);
 
-/// Lets particles cross planes, copies those that enter and removes those at the far ends. The order of the new ones
-/// depends on (end, parent) only. Returns whether any was added or removed.
-bool exchange_particles(FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);
+/// Lets particles cross planes, copies those that enter, removes those at the far ends, and renews the tails: copies of
+/// a buffer's first particles (up to `tail` [m] beyond the plane) behind its last ones. New particles are ordered by
+/// (end, parent).
+void exchange_particles(FluidParticles& fluid, double spacing, double tail, std::span<OpenEnd> ends);
 
 }  // namespace patency

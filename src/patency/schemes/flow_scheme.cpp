@@ -30,6 +30,10 @@ Sym<T> symmetric(const Mat3& m) {
 // A particle nearer to the wall than this share of a spacing is treated as if it were there: the mirror ratio D/s would
 // grow without bound, and with it the stiffness of the viscous term.
 constexpr double nearest_wall_distance = 0.3;
+// A particle nearer than this share of a spacing is led back, by this share of what is missing per step. In a relaxed
+// arrangement the first layer stands at 0.5.
+constexpr double wall_clearance = 0.4;
+constexpr double wall_return = 0.2;
 // The shift of one step is at most this share of a spacing: beyond it the correction of the fields is not linear.
 constexpr double largest_shift = 0.1;
 // Stability of the explicit viscous term: the largest eigenvalue of the operator (3.5) is about 12/h^2 in space.
@@ -104,7 +108,7 @@ public:
             compress(dt);
         }
         shift_particles();
-        exchange_particles(domain_.fluid, numerics_.spacing, domain_.ends);
+        exchange_particles(domain_.fluid, numerics_.spacing, kernel_.support(), domain_.ends);
         return report;
     }
 
@@ -185,6 +189,7 @@ private:
             }
         });
         geometry_[n] = pressure_[n] = dummy_record();
+        geometry_[n].d = T(1);   // a distance to the wall, which is divided by
         velocity_[n] = {T(0), T(0), T(0), T(0)};
     }
 
@@ -209,7 +214,11 @@ private:
         });
         sum_over_neighbours<T>(wall_rows_, scale_, Records<T, 0>{geometry_.data()},
                                Records<T, 2>{wall_geometry_.data(), wall_normal_.data(), wall_velocity_.data()}, terms::WallMoments{},
-                               [&](std::uint32_t i, const WallSums& sum) { wall_moments_[wall_of_[i]] = sum; }, numerics_.loop);
+                               [&](std::uint32_t i, const WallSums& sum) {
+                                   wall_moments_[wall_of_[i]] = sum;
+                                   if (!(sum[30] > T(0))) wall_of_[i] = no_wall;   // just out of the kernel's reach
+                               },
+                               numerics_.loop);
     }
 
     /// Correction matrices of gradient and Laplacian, and the shift, of every particle.
@@ -243,9 +252,18 @@ private:
             Vec3 shift = shift_scale * Vec3{m[6], m[7], m[8]};
             const double length = norm(shift), limit = largest_shift * numerics_.spacing;
             if (length > limit) shift = (limit / length) * shift;
-            shift_[i] = fluid.opening[i] == 0 ? shift : Vec3{};
+            if (const std::uint32_t k = wall_of_[i]; k != no_wall) shift += away_from_wall(i, wall_moments_[k]);
+            shift_[i] = fluid.opening[i] >= 0 ? shift : Vec3{};
         });
         laplacian_diagonal_[n] = laplacian_mixed_[n] = {T(0), T(0), T(0), T(0)};
+    }
+
+    /// Particles stay clear of the wall: the linear mirror divides by their distance.
+    Vec3 away_from_wall(std::uint32_t i, const WallSums& wall) const {
+        const double missing = wall_clearance * numerics_.spacing - double(geometry_[i].d) * loop_unit();
+        const Vec3 normal{wall[31], wall[32], wall[33]};
+        const double length = norm(normal);
+        return missing > 0 && length > 0 ? (-wall_return * missing / length) * normal : Vec3{};
     }
 
     Mat3 second_moment(const std::array<double, terms::moments>& m) const {
@@ -257,7 +275,10 @@ private:
         wall_viscosity_.resize(wall_moments_.size());
         sum_over_neighbours<T>(wall_rows_, scale_, Records<T, 2>{geometry_.data(), laplacian_diagonal_.data(), laplacian_mixed_.data()},
                                Records<T, 0>{wall_geometry_.data()}, terms::WallViscosity{},
-                               [&](std::uint32_t i, const std::array<T, 5>& sum) { wall_viscosity_[wall_of_[i]] = sum; }, numerics_.loop);
+                               [&](std::uint32_t i, const std::array<T, 5>& sum) {
+                                   if (wall_of_[i] != no_wall) wall_viscosity_[wall_of_[i]] = sum;
+                               },
+                               numerics_.loop);
         surface_velocity_.resize(wall_moments_.size());
         sum_over_neighbours<T>(rows_, scale_, Records<T, 3>{geometry_.data(), velocity_.data(), laplacian_diagonal_.data(), laplacian_mixed_.data()},
                                Records<T, 1>{geometry_.data(), velocity_.data()}, terms::Viscosity{},
@@ -285,7 +306,7 @@ private:
         }
         gradient = gradient * correct;
         if (fluid.opening[i] != 0) {   // natural outflow: nothing changes along the axis
-            const Vec3& axis = domain_.ends[std::size_t(fluid.opening[i]) - 1].normal;
+            const Vec3& axis = domain_.ends[std::size_t(std::abs(fluid.opening[i])) - 1].normal;
             gradient = gradient - outer(gradient * axis, axis);
         }
         // What the gradient alone contributes is taken off: exact for linear fields.               THEORY.md (3.5)
@@ -305,6 +326,13 @@ private:
         }
         fluid.slow_acceleration[i] = viscous + numerics_.body_force;
         fluid.velocity_gradient[i] = gradient;
+        if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(gradient));
+    }
+
+    /// sqrt(2 D:D), D the rate of deformation [1/s].                                               THEORY.md (10.2)
+    static double shear_rate(const Mat3& g) {
+        const Mat3 d = 0.5 * (g + transpose(g));
+        return std::sqrt(2 * (dot(d.x, d.x) + dot(d.y, d.y) + dot(d.z, d.z)));
     }
 
     static Vec3 tangential(const Vec3& a, const Vec3& normal) { return a - dot(a, normal) * normal; }
@@ -315,7 +343,7 @@ private:
         normal = {wall[31], wall[32], wall[33]};
         const double length = norm(normal);
         normal = length > 1e-6 * weight ? normal / length : Vec3{};
-        const Vec3 slip = weight > 0 ? v - Vec3{wall[35], wall[36], wall[37]} / weight : v;
+        const Vec3 slip = v - Vec3{wall[35], wall[36], wall[37]} / weight;
         return numerics_.free_slip ? dot(slip, normal) * normal : slip;
     }
 
@@ -423,7 +451,7 @@ private:
         for (OpenEnd& end : domain_.ends) measure_flow(end, domain_.fluid);
         if (update_ends) update_ends(domain_.ends, time, dt);
         for (OpenEnd& end : domain_.ends) {
-            fit_pressure(end, [&](std::uint32_t i) { return double(pressure_[i].d); });
+            fit_pressure(end, material_.density * material_.sound_speed, [&](std::uint32_t i) { return double(pressure_[i].d); });
             for (const auto& m : end.buffer) {
                 double& p = domain_.fluid.pressure[m.index];
                 const double wanted = end.mean_pressure + end.slope * m.s, predicted = pressure_[m.index].d;
