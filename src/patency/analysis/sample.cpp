@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/analysis/sample.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "patency/base/parallel.h"
+
+namespace patency {
+
+namespace {
+
+// A fit needs half as many points again as unknowns, or it follows their noise.
+constexpr double surplus = 1.5;
+
+/// One point of a fit.
+struct Datum {
+    Vec3 d;   // from the place, in units of the reach
+    double weight;
+    Vec3 velocity;
+    double pressure;
+    bool has_pressure;
+};
+
+/// 1, x, y, (z), and the products of two, by rising degree.
+int fill_basis(const Vec3& d, bool planar, int terms, double* b) {
+    const double all[10] = {1, d.x, d.y, d.z, d.x * d.x, d.x * d.y, d.y * d.y, d.x * d.z, d.y * d.z, d.z * d.z};
+    const double flat[6] = {1, d.x, d.y, d.x * d.x, d.x * d.y, d.y * d.y};
+    for (int k = 0; k < terms; ++k) b[k] = planar ? flat[k] : all[k];
+    return terms;
+}
+
+double kernel_weight(double q) {   // Wendland C2 over its reach
+    const double t = 1 - q;
+    return t > 0 ? t * t * t * t * (1 + 4 * q) : 0.0;
+}
+
+/// Value and gradient at the place of one or several columns of numbers. Rows: terms; columns: as `values`.
+Eigen::MatrixXd fit(const std::vector<Datum>& data, bool planar, bool pressure, int terms) {
+    const int columns = pressure ? 1 : 3;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms), right = Eigen::MatrixXd::Zero(terms, columns);
+    double b[10];
+    for (const Datum& datum : data) {
+        if (pressure && !datum.has_pressure) continue;
+        fill_basis(datum.d, planar, terms, b);
+        const double values[3] = {pressure ? datum.pressure : datum.velocity.x, datum.velocity.y, datum.velocity.z};
+        for (int r = 0; r < terms; ++r) {
+            for (int c = 0; c < terms; ++c) normal(r, c) += datum.weight * b[r] * b[c];
+            for (int c = 0; c < columns; ++c) right(r, c) += datum.weight * b[r] * values[c];
+        }
+    }
+    return normal.ldlt().solve(right);
+}
+
+int count_terms(std::size_t points, bool planar) {
+    const int quadratic = planar ? 6 : 10, linear = planar ? 3 : 4;
+    return double(points) >= surplus * quadratic ? quadratic : double(points) >= surplus * linear ? linear : 1;
+}
+
+FlowSample evaluate(const std::vector<Datum>& data, bool planar, double reach) {
+    std::size_t with_pressure = 0;
+    for (const Datum& datum : data) with_pressure += datum.has_pressure;
+    FlowSample sample{{NAN, NAN, NAN}, NAN, {}, int(with_pressure)};
+    if (with_pressure == 0) return sample;
+    const int terms = count_terms(data.size(), planar);
+    const Eigen::MatrixXd v = fit(data, planar, false, terms);
+    const Eigen::MatrixXd p = fit(data, planar, true, count_terms(with_pressure, planar));
+    sample.velocity = {v(0, 0), v(0, 1), v(0, 2)};
+    sample.pressure = p(0, 0);
+    const auto slope = [&](int a) {
+        return terms < 3 ? Vec3{} : Vec3{v(1, a) / reach, v(2, a) / reach, planar ? 0.0 : v(3, a) / reach};
+    };
+    sample.velocity_gradient = {slope(0), slope(1), slope(2)};
+    return sample;
+}
+
+/// Points of the wall's surface near a place, a third of the reach apart around its foot.
+void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool planar, const WallHint& wall) {
+    const double distance = wall.distance(place);
+    if (!(distance < 0) || -distance >= reach) return;
+    const Vec3 n = wall.normal(place);
+    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 a = planar ? Vec3{-n.y, n.x, 0} : normalized(cross(n, other)), b = planar ? Vec3{} : cross(n, a);
+    const Vec3 foot = place - distance * n;
+    const double step = reach / 3;
+    for (int i = -2; i <= 2; ++i)
+        for (int j = planar ? 0 : -2; j <= (planar ? 0 : 2); ++j) {
+            Vec3 x = foot + step * (double(i) * a + double(j) * b);
+            x -= wall.distance(x) * wall.normal(x);   // back to the surface, where it is curved
+            const Vec3 d = (x - place) / reach;
+            const double weight = kernel_weight(norm(d));
+            if (weight > 0) data.push_back({d, weight, wall.velocity ? wall.velocity(x) : Vec3{}, 0, false});
+        }
+}
+
+Vec3 shortest(Vec3 d, const Frame& frame) {   // the short way round a periodic box
+    const auto wrap = [](double x, double side, bool periodic) { return periodic ? x - side * std::round(x / side) : x; };
+    const Vec3 side = frame.high() - frame.low();
+    return {wrap(d.x, side.x, frame.periodic()[0]), wrap(d.y, side.y, frame.periodic()[1]), wrap(d.z, side.z, frame.periodic()[2])};
+}
+
+}  // namespace
+
+std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, double reach,
+                                    bool planar, const WallHint* wall) {
+    std::vector<FlowSample> samples(places.size());
+    if (places.empty()) return samples;
+    // Only particles near the box around the places come into question.
+    Vec3 low = places[0], high = places[0];
+    for (const Vec3& x : places) {
+        low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+        high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+    }
+    const Vec3 middle = 0.5 * (low + high), half = 0.5 * (high - low) + Vec3{reach, reach, reach};
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < fluid.size(); ++i) {
+        const Vec3 d = shortest(fluid.position[i] - middle, frame);
+        if (std::abs(d.x) <= half.x && std::abs(d.y) <= half.y && std::abs(d.z) <= half.z) near.push_back(i);
+    }
+#pragma omp parallel for schedule(dynamic, 4)
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        std::vector<Datum> data;
+        for (const std::uint32_t i : near) {
+            const Vec3 d = shortest(fluid.position[i] - places[k], frame) / reach;
+            const double q2 = dot(d, d);
+            if (q2 < 1) data.push_back({d, kernel_weight(std::sqrt(q2)), fluid.velocity[i], fluid.pressure[i], true});
+        }
+        if (wall && !data.empty()) add_wall(data, places[k], reach, planar, *wall);
+        samples[k] = evaluate(data, planar, reach);
+    }
+    return samples;
+}
+
+std::vector<Vec3> places_along(const Vec3& from, const Vec3& to, int count) {
+    std::vector<Vec3> places;
+    for (int k = 0; k < count; ++k) places.push_back(from + (count > 1 ? double(k) / (count - 1) : 0.0) * (to - from));
+    return places;
+}
+
+}  // namespace patency

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of the blood at places between its particles: at points, along lines. Reads particles; moves none.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "patency/bodies/fluid.h"
+#include "patency/search/cells.h"
+
+namespace patency {
+
+/// What is known at one place.
+struct FlowSample {
+    Vec3 velocity;            ///< [m/s]; NaN where no particle is near
+    double pressure;          ///< above the reference pressure [Pa]; NaN where no particle is near
+    Mat3 velocity_gradient;   ///< row a: gradient of v_a [1/s]
+    int neighbours;           ///< particles that took part
+};
+
+/// Where the wall is, for samples near it: the distance (negative inside) and its gradient out of the blood, and the
+/// wall's velocity.
+struct WallHint {
+    std::function<double(const Vec3&)> distance;       ///< [m]
+    std::function<Vec3(const Vec3&)> normal;
+    std::function<Vec3(const Vec3&)> velocity;         ///< of the surface near a place [m/s]; empty: at rest
+};
+
+/// Weighted least squares with a full quadratic through the particles within `reach` of each place (a linear one where
+/// they are too few), weights of the Wendland kernel: exact for quadratic fields, third order. With a hint, places
+/// nearer to the wall than `reach` also see the wall's velocity, at points of the surface near them. `reach` is best 2h.
+/// Periodic frames are seen through.
+std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, double reach,
+                                    bool planar, const WallHint* wall = nullptr);
+
+/// `count` places from one point to another, both included [m].
+std::vector<Vec3> places_along(const Vec3& from, const Vec3& to, int count);
+
+}  // namespace patency

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/build.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/physics/fluid/rheology.h"
+#include "patency/stages/flow.h"
+#include "patency/stages/initial_state.h"
+#include "patency/stages/lumen_of_case.h"
+#include "patency/stages/speeds.h"
+
+namespace patency {
+
+namespace {
+
+// Beside the points: what a particle may stray before it has left the domain, and what a buffer's tail needs.
+constexpr double margin_spacings = 5;
+
+double support_of(const deck::Numerics& numerics) { return 2 * numerics.smoothing_ratio * numerics.spacing; }
+
+PointsExtent extent_of(const deck::Numerics& numerics) {
+    const double dp = numerics.spacing, support = support_of(numerics), buffer = buffer_spacings * dp;
+    return {.wall_thickness = support + 0.5 * dp, .fluid_extension = buffer, .wall_extension = buffer + support};
+}
+
+Rheology make_rheology(const deck::Blood& blood) {
+    switch (blood.law) {
+        case deck::BloodLaw::newtonian: break;
+        case deck::BloodLaw::carreau_yasuda: return CarreauYasuda{blood.mu_0, blood.mu_inf, blood.lambda, blood.n, blood.a};
+        case deck::BloodLaw::casson: {
+            // Regularised so that the viscosity at rest is the deck's largest: THEORY.md (10.3) at g = 0.
+            const double root = std::sqrt(blood.max_viscosity) - std::sqrt(blood.plastic_viscosity);
+            const double time = blood.yield_stress > 0 ? root * root / blood.yield_stress : 0;
+            return Casson{blood.yield_stress, blood.plastic_viscosity, time};
+        }
+        case deck::BloodLaw::power_law: return PowerLaw{blood.consistency, blood.n, blood.min_viscosity, blood.max_viscosity};
+    }
+    return Newtonian{blood.viscosity};
+}
+
+FluidMaterial make_material(const deck::Blood& blood) {
+    const Rheology law = make_rheology(blood);
+    FluidMaterial material{.density = blood.density, .viscosity = largest_viscosity(law), .sound_speed = 0, .viscosity_at = {}};
+    if (!std::holds_alternative<Newtonian>(law)) material.viscosity_at = [law](double shear_rate) { return viscosity(law, shear_rate); };
+    return material;
+}
+
+FlowNumerics make_numerics(const deck::Case& config, const Lumen& lumen) {
+    FlowNumerics numerics;
+    numerics.spacing = config.numerics.spacing;
+    numerics.smoothing_ratio = config.numerics.smoothing_ratio;
+    numerics.planar = lumen.planar;
+    numerics.advection_cfl = config.numerics.advection_cfl;
+    numerics.acoustic_cfl = config.numerics.acoustic_cfl;
+    numerics.free_slip = config.wall.slip == deck::Slip::free_slip;
+    numerics.body_force = config.body_force;
+    return numerics;
+}
+
+void make_ends(Scene& scene) {
+    const double dp = scene.numerics.spacing;
+    for (const Opening& opening : scene.lumen.openings) {
+        const deck::Opening& said = scene.config.openings.at(opening.name);
+        // Fewer particles do not see a section; a profile would be noise.
+        if (2 * opening.radius < 4 * dp)
+            throw GeometryError(fmt::format("openings.{}: {:.3g} mm wide, less than 4 particles of numerics.spacing {:.3g} mm", opening.name,
+                                            2e3 * opening.radius, 1e3 * dp));
+        EndLaw law = make_end_law(opening, said, scene.config);
+        OpenEnd end;
+        end.name = opening.name;
+        end.kind = law.prescribes_flow() ? OpenEnd::Kind::velocity : OpenEnd::Kind::pressure;
+        end.centre = opening.centre;
+        end.normal = opening.normal;
+        end.area = opening.area;
+        end.reach = opening.reach + dp;
+        end.buffer_length = buffer_spacings * dp;
+        if (law.prescribes_flow()) end.velocity = make_end_velocity(opening, said, law, scene.config.blood);
+        scene.ends.push_back(std::move(end));
+        scene.laws.push_back(std::move(law));
+    }
+    choose_reference(scene.laws, scene.config.numerics.pressure_reference);
+}
+
+std::unique_ptr<Frame> make_frame(const Scene& scene) {
+    const Lumen& lumen = scene.lumen;
+    const double dp = scene.numerics.spacing;
+    const PointsExtent extent = extent_of(scene.config.numerics);
+    const double past = (lumen.openings.empty() ? 0 : extent.wall_extension) + extent.wall_thickness + margin_spacings * dp;
+    Bounds box = grown(lumen.bounds, past);
+    const std::array<bool, 3> periodic{lumen.period.x > 0, lumen.period.y > 0, lumen.period.z > 0};
+    if (periodic[0]) box.low.x = lumen.bounds.low.x, box.high.x = lumen.bounds.high.x;
+    if (periodic[1]) box.low.y = lumen.bounds.low.y, box.high.y = lumen.bounds.high.y;
+    if (periodic[2]) box.low.z = lumen.bounds.low.z, box.high.z = lumen.bounds.high.z;
+    if (lumen.planar) box.low.z = -dp, box.high.z = dp;
+    return std::make_unique<Frame>(box.low, box.high, support_of(scene.config.numerics), periodic);
+}
+
+/// Zero, or of the deck's wall that the particle belongs to.
+Vec3 wall_velocity(const deck::Wall& wall, const Vec3& normal) {
+    if (const auto named = wall.velocity.find(std::string(plane_wall_name(normal))); named != wall.velocity.end()) return named->second;
+    if (const auto all = wall.velocity.find("all"); all != wall.velocity.end()) return all->second;
+    return {};
+}
+
+void expect_wall_names(const Scene& scene) {
+    const deck::Shape& shape = *scene.config.geometry.shape;
+    const bool has_plane_walls = shape.type == deck::ShapeType::channel || shape.type == deck::ShapeType::box;
+    for (const auto& [name, velocity] : scene.config.wall.velocity) {
+        const bool is_plane = name.size() > 2 && (name.ends_with("_low") || name.ends_with("_high")) && name[0] >= 'x' && name[0] <= 'z';
+        if (name != "all" && !(has_plane_walls && is_plane))
+            throw DeckError(fmt::format("wall.velocity.{}: the shape has no such wall; use all{}", name,
+                                        has_plane_walls ? ", y_low, y_high (x_, z_ in boxes)" : ""));
+    }
+}
+
+void place_particles(Scene& scene) {
+    const Lumen& lumen = scene.lumen;
+    const FittedPoints points = make_relaxed_points(lumen, scene.numerics.spacing, extent_of(scene.config.numerics), &scene.relax_quality);
+    if (points.fluid.empty()) throw GeometryError("no particle fits into the lumen: numerics.spacing is too large");
+
+    FluidParticles& fluid = scene.fluid;
+    fluid.resize(points.fluid.size());
+    std::size_t i = 0;
+    for (std::size_t part = 0; part < points.fluid_count.size(); ++part)
+        for (std::size_t n = 0; n < points.fluid_count[part]; ++n, ++i) {
+            fluid.position[i] = points.fluid[i];
+            fluid.volume[i] = points.volume;
+            fluid.opening[i] = std::int32_t(part);   // 0 inside, else past opening part - 1
+        }
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) scene.ends[k].buffer_length = points.fluid_end[k];
+
+    WallParticles& wall = scene.wall;
+    wall.resize(points.wall.size());
+    for (std::size_t w = 0; w < wall.size(); ++w) {
+        const DistanceSample here = lumen.distance.sample(points.wall[w]);
+        wall.position[w] = points.wall[w];
+        wall.normal[w] = here.gradient;
+        wall.depth[w] = here.value;
+        wall.curvature[w] = lumen.distance.curvature(points.wall[w] - here.value * here.gradient);   // of the surface itself
+        wall.velocity[w] = wall_velocity(scene.config.wall, here.gradient);
+        wall.volume[w] = points.volume;
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> build_frame(const deck::Case& config) {
+    auto scene = std::make_unique<Scene>();
+    scene->config = config;
+    if (config.wall.motion != deck::WallMotion::rigid)
+        throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
+    scene->lumen = make_lumen(config);
+    expect_wall_names(*scene);
+    scene->material = make_material(config.blood);
+    scene->numerics = make_numerics(config, scene->lumen);
+    make_ends(*scene);
+    const Expected expected = estimate_expected(config, scene->lumen, scene->laws, scene->material);
+    scene->numerics.reference_speed = expected.speed;
+    scene->material.sound_speed = choose_sound_speed(config, scene->lumen, expected, scene->material);
+    scene->frame = make_frame(*scene);
+    return scene;
+}
+
+std::unique_ptr<Scene> build_scene(const deck::Case& config) {
+    auto scene = build_frame(config);
+    place_particles(*scene);
+    // The level at time zero, of ends through which nothing flows yet.
+    scene->reference_pressure = impose_laws(scene->laws, scene->ends, 0, 0);
+    for (EndLaw& law : scene->laws) law.is_started = false;
+    compute_initial_state(*scene);
+    start_scheme(*scene);
+    return scene;
+}
+
+}  // namespace patency

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/end_law.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "patency/base/errors.h"
+#include "patency/physics/open_ends/profile.h"
+#include "patency/stages/waveform_of_deck.h"
+
+namespace patency {
+
+namespace {
+
+// Modes of a waveform from a table in Womersley's profile: the 20th harmonic of a heart beat carries no flow.
+constexpr std::size_t womersley_modes = 20;
+
+double mean_of_table(const deck::ProfileTable& table, Section section) {
+    // Exact for the piecewise linear profile: integral of u(s) 2 s ds (disc) or u(s) ds (gap).
+    double sum = 0;
+    const auto add = [&](double a, double b, double ua, double ub) {
+        if (section == Section::planar) sum += 0.5 * (b - a) * (ua + ub);
+        else sum += (b - a) / 3 * (ua * (2 * a + b) + ub * (a + 2 * b));
+    };
+    add(0, table.radii.front(), table.speeds.front(), table.speeds.front());
+    for (std::size_t k = 1; k < table.radii.size(); ++k)
+        add(table.radii[k - 1], table.radii[k], table.speeds[k - 1], table.speeds[k]);
+    return sum;
+}
+
+double value_of_table(const deck::ProfileTable& table, double s) {
+    if (s > table.radii.back()) return 0;
+    if (s <= table.radii.front()) return table.speeds.front();
+    const std::size_t k = std::size_t(std::lower_bound(table.radii.begin(), table.radii.end(), s) - table.radii.begin());
+    const double f = (s - table.radii[k - 1]) / (table.radii[k] - table.radii[k - 1]);
+    return table.speeds[k - 1] + f * (table.speeds[k] - table.speeds[k - 1]);
+}
+
+double peak_to_mean(const deck::Opening& said, Section section) {
+    switch (said.profile) {
+        case deck::VelocityProfile::plug: return 1;
+        case deck::VelocityProfile::table: {
+            const auto& speeds = said.profile_table->speeds;
+            const double mean = mean_of_table(*said.profile_table, section);
+            if (!(std::abs(mean) > 0)) throw DeckError("a profile_table without a mean cannot be scaled to a flow");
+            const auto largest = std::max_element(speeds.begin(), speeds.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+            return *largest / mean;
+        }
+        case deck::VelocityProfile::parabola:
+        case deck::VelocityProfile::developed_startup:
+        case deck::VelocityProfile::womersley: break;
+    }
+    return parabola_profile(section, 0);
+}
+
+Waveform scaled(const deck::Opening& said, const deck::Case& config, double area, double mean_over_peak) {
+    using deck::OpeningType;
+    const auto per_case = [&](Dimension dimension, double factor) { return make_signal_waveform(*said.waveform, config, dimension, factor); };
+    switch (said.type) {
+        case OpeningType::velocity:
+            if (said.waveform) return per_case(Dimension::velocity, area);
+            return make_constant(area * (said.velocity ? *said.velocity : *said.peak_velocity * mean_over_peak));
+        case OpeningType::flow: return said.waveform ? per_case(Dimension::flow, 1) : make_constant(*said.flow);
+        case OpeningType::pressure: return said.waveform ? per_case(Dimension::pressure, 1) : make_constant(*said.pressure);
+        default: return {};
+    }
+}
+
+/// (u of the start from rest) / (final peak) in a gap, at s half gaps from the mid-plane and tau = nu t / gap^2.
+///                                                                                              THEORY.md (12.2)
+double startup_profile(double s, double tau) {
+    constexpr double pi = std::numbers::pi, negligible = 45;   // e^-45 = 3e-20
+    const double y = 0.5 * (1 - s), decay = pi * pi * tau;
+    double sum = 0;
+    for (int k = 1; k < 4000 && k * (k * decay) < negligible; k += 2)
+        sum += std::sin(k * pi * y) * std::exp(-k * (k * decay)) / (double(k) * k * k);
+    return 1 - s * s - 32 / (pi * pi * pi) * sum;
+}
+
+}  // namespace
+
+EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config) {
+    try {
+        EndLaw law;
+        law.type = said.type;
+        if (law.prescribes_flow())
+            law.peak_to_mean = peak_to_mean(said, opening.planar ? Section::planar : Section::circular);
+        law.signal = {scaled(said, config, opening.area, 1 / law.peak_to_mean), said.ramp};
+        const double start = said.initial_pressure.value_or(said.distal_pressure);
+        if (said.type == deck::OpeningType::resistance) law.outlet = Resistance{said.resistance, said.distal_pressure};
+        if (said.type == deck::OpeningType::rcr)
+            law.outlet = Rcr{said.proximal_resistance, said.compliance, said.distal_resistance, said.distal_pressure};
+        if (said.type == deck::OpeningType::coronary)
+            throw DeckError("type coronary needs the pressure of the heart muscle, which decks cannot say yet; use rcr");
+        if (law.outlet && !(said.type == deck::OpeningType::resistance && said.resistance == 0)) expect_valid(*law.outlet);
+        law.state = {start, 0};
+        return law;
+    } catch (const DeckError& error) {
+        throw DeckError(fmt::format("openings.{}: {}", opening.name, error.what()));
+    }
+}
+
+std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
+                                                           const EndLaw& law, const deck::Blood& blood) {
+    const Section section = opening.planar ? Section::planar : Section::circular;
+    const double area = opening.area, radius = opening.radius;
+    const Vec3 inwards = -opening.normal;
+    const auto place = [opening, radius](const Vec3& x) { return norm(opening_coordinates(opening, x).radial) / radius; };
+    const auto mean_speed = [signal = law.signal, area](double time) { return signal(time) / area; };
+    switch (said.profile) {
+        case deck::VelocityProfile::plug:
+            return [=](const Vec3&, double time) { return mean_speed(time) * inwards; };   // beside a wall too: a plug slips
+        case deck::VelocityProfile::parabola:
+            return [=](const Vec3& x, double time) { return mean_speed(time) * parabola_profile(section, place(x)) * inwards; };
+        case deck::VelocityProfile::table: {
+            const double mean = mean_of_table(*said.profile_table, section);
+            return [=, table = *said.profile_table](const Vec3& x, double time) {
+                return mean_speed(time) / mean * value_of_table(table, place(x)) * inwards;
+            };
+        }
+        case deck::VelocityProfile::developed_startup: {
+            if (section != Section::planar)
+                throw DeckError(fmt::format("openings.{}.profile: developed_startup is known between plates only", opening.name));
+            const double rate = blood.viscosity / blood.density / (4 * radius * radius), to_peak = law.peak_to_mean;
+            return [=](const Vec3& x, double time) {
+                const double s = std::min(place(x), 1.0);
+                return mean_speed(time) * to_peak * startup_profile(s, rate * time) * inwards;
+            };
+        }
+        case deck::VelocityProfile::womersley: break;
+    }
+    if (blood.law != deck::BloodLaw::newtonian)
+        throw DeckError(fmt::format("openings.{}.profile: womersley is known for Newtonian blood only", opening.name));
+    struct Instant {
+        double time = NAN;
+        ProfileSnapshot snapshot;
+    };
+    const WomersleyProfile profile(section, radius, blood.density, blood.viscosity,
+                                   make_fourier_series(law.signal.waveform, womersley_modes));
+    return [=, ramp = law.signal.ramp, last = std::make_shared<Instant>()](const Vec3& x, double time) {
+        if (last->time != time) *last = {time, profile.at(time)};
+        const double rise = ramp > 0 ? smooth_ramp(time, ramp) : 1.0;
+        return rise * last->snapshot(std::min(place(x), 1.0)) * inwards;
+    };
+}
+
+OutletResponse response_of(const EndLaw& law, double time, double ahead) {
+    if (!law.outlet) return {law.signal(time + ahead), 0};
+    return step_response(*law.outlet, law.state, {time, ahead}, law.known_flow);
+}
+
+void choose_reference(std::span<EndLaw> laws, deck::PressureReference reference) {
+    EndLaw* least = nullptr;
+    bool is_any_prescribed = false;
+    for (EndLaw& law : laws) {
+        law.is_reference = reference == deck::PressureReference::moving && law.type == deck::OpeningType::pressure;
+        is_any_prescribed |= law.is_reference;
+        if (!law.prescribes_flow() && (!least || response_of(law, 0, 0).dp_dq < response_of(*least, 0, 0).dp_dq)) least = &law;
+    }
+    if (reference == deck::PressureReference::moving && !is_any_prescribed && least) least->is_reference = true;
+}
+
+double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt) {
+    // The pressure of a kick stands in the middle of its step (THEORY.md (7.2)).
+    const double ahead = 0.5 * dt;
+    double level = 0;
+    int references = 0;
+    std::vector<OutletResponse> wanted(laws.size());
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+        EndLaw& law = laws[k];
+        if (law.prescribes_flow()) continue;
+        const double flow = ends[k].flow;
+        if (law.outlet && law.is_started && time > law.known_until)
+            law.state = advanced(*law.outlet, law.state, {law.known_until, time - law.known_until}, law.known_flow, flow);
+        law.known_until = time;
+        law.known_flow = flow;
+        law.is_started = true;
+        wanted[k] = response_of(law, time, ahead);
+        law.pressure = wanted[k].p0 + wanted[k].dp_dq * flow;
+        if (law.is_reference) level += law.pressure, ++references;
+    }
+    if (references > 0) level /= references;
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+        if (laws[k].prescribes_flow()) continue;
+        // The level answers at once to the flow through its own end: there the pressure above it is what it is.
+        const bool carries_level = laws[k].is_reference && laws[k].outlet;
+        ends[k].pressure = carries_level ? laws[k].pressure - level : wanted[k].p0 - level;
+        ends[k].resistance = carries_level ? 0 : wanted[k].dp_dq;
+    }
+    return level;
+}
+
+}  // namespace patency

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/initial_state.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "patency/base/errors.h"
+#include "patency/base/parallel.h"
+#include "patency/physics/open_ends/profile.h"
+#include "patency/stages/lumen_of_case.h"
+
+namespace patency {
+
+namespace {
+
+using VectorField = std::function<Vec3(const Vec3&)>;
+
+StraightAxis axis_for(const Scene& scene, const char* what) {
+    auto axis = find_straight_axis(*scene.config.geometry.shape);
+    if (!axis) throw DeckError(fmt::format("{} needs a shape with one straight axis: channel, tube, cone or nozzle", what));
+    return *axis;
+}
+
+/// Velocity of the flow that a waveform drives: its profile at time zero.
+VectorField womersley_field(const Scene& scene) {
+    for (std::size_t k = 0; k < scene.ends.size(); ++k)
+        if (scene.ends[k].velocity) return [velocity = scene.ends[k].velocity](const Vec3& x) { return velocity(x, 0); };
+    const StraightAxis axis = axis_for(scene, "initial.velocity: womersley");
+    if (scene.laws.size() != 2) throw DeckError("initial.velocity: womersley needs a waveform at an opening");
+    // Between two pressures: the flow of their difference, one period long.
+    constexpr std::size_t modes = 20;
+    const double radius = axis.outline.front().radius;
+    const FourierSeries inlet = make_fourier_series(scene.laws[0].signal.waveform, modes);
+    const FourierSeries outlet = make_fourier_series(scene.laws[1].signal.waveform, modes);
+    const FourierSeries& pulse = inlet.modes() > 0 ? inlet : outlet;
+    FourierSeries gradient{(inlet.mean - outlet.mean) / axis.length, {}, {}, pulse.period};
+    gradient.cosines.resize(pulse.modes()), gradient.sines.resize(pulse.modes());
+    for (std::size_t k = 1; k <= pulse.modes(); ++k) {
+        const auto of = [&](const FourierSeries& s) { return k <= s.modes() ? s.amplitude(k) : std::complex<double>{}; };
+        gradient.set_amplitude(k, (of(inlet) - of(outlet)) / axis.length);
+    }
+    const double rho = scene.material.density, mu = scene.material.viscosity;
+    const WomersleyProfile profile(axis.section, radius, rho, mu, make_womersley_flow(axis.section, radius, rho, mu, gradient));
+    return [axis, radius, now = profile.at(0)](const Vec3& x) { return now(std::min(axis.radial(x) / radius, 1.0)) * axis.direction; };
+}
+
+VectorField velocity_field(const Scene& scene) {
+    const deck::Initial& initial = scene.config.initial;
+    const double speed = initial.speed.value_or(0);
+    switch (initial.velocity) {
+        case deck::InitialVelocity::rest: return [](const Vec3&) { return Vec3{}; };
+        case deck::InitialVelocity::plug: {
+            const auto axis = find_straight_axis(*scene.config.geometry.shape);
+            const Vec3 direction = axis ? axis->direction : Vec3{1, 0, 0};
+            return [=](const Vec3&) { return speed * direction; };
+        }
+        case deck::InitialVelocity::parabola: {
+            const StraightAxis axis = axis_for(scene, "initial.velocity: parabola");
+            const double first = section_area(axis.section, axis.outline.front().radius);
+            return [=](const Vec3& x) {   // the mean is that of the first section; the same flow passes everywhere
+                const double radius = axis.radius_at(axis.axial(x));
+                const double mean = speed * first / section_area(axis.section, radius);
+                return mean * parabola_profile(axis.section, axis.radial(x) / radius) * axis.direction;
+            };
+        }
+        case deck::InitialVelocity::taylor_green: {
+            const double k = 2 * std::numbers::pi / scene.config.geometry.shape->size.x;
+            return [=](const Vec3& x) {   // THEORY.md (12.7)
+                return Vec3{-speed * std::cos(k * x.x) * std::sin(k * x.y), speed * std::sin(k * x.x) * std::cos(k * x.y), 0};
+            };
+        }
+        case deck::InitialVelocity::womersley: return womersley_field(scene);
+    }
+    return {};
+}
+
+struct PressureField {
+    std::function<double(const Vec3&)> value;
+    VectorField gradient;
+};
+
+PressureField taylor_green_pressure(const Scene& scene) {
+    const double k = 2 * std::numbers::pi / scene.config.geometry.shape->size.x;
+    const double p = 0.25 * scene.material.density * *scene.config.initial.speed * *scene.config.initial.speed;
+    return {[=](const Vec3& x) { return -p * (std::cos(2 * k * x.x) + std::cos(2 * k * x.y)); },
+            [=](const Vec3& x) { return Vec3{2 * k * p * std::sin(2 * k * x.x), 2 * k * p * std::sin(2 * k * x.y), 0}; }};
+}
+
+/// Linear along the axis between the openings' pressures; where the inlet prescribes a flow, with Poiseuille's gradient
+/// of the initial velocity up from the outlet.
+PressureField linear_pressure(const Scene& scene) {
+    const StraightAxis axis = axis_for(scene, "initial.pressure: linear");
+    double first = NAN, last = NAN;
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) {
+        if (scene.laws[k].prescribes_flow()) continue;
+        const double p = response_of(scene.laws[k], 0, 0).p0;
+        (dot(scene.ends[k].normal, axis.direction) < 0 ? first : last) = p;
+    }
+    const double a = axis.outline.front().radius;
+    double slope = 0;
+    if (scene.config.initial.velocity != deck::InitialVelocity::rest && scene.config.initial.velocity != deck::InitialVelocity::plug)
+        slope = -scene.config.initial.speed.value_or(0) * scene.material.viscosity * (axis.section == Section::planar ? 3 : 8) / (a * a);
+    if (!std::isnan(first) && !std::isnan(last)) slope = (last - first) / axis.length;
+    else if (std::isnan(first)) first = last - slope * axis.length;
+    return {[=](const Vec3& x) { return first + slope * axis.axial(x); }, [=](const Vec3&) { return slope * axis.direction; }};
+}
+
+PressureField pressure_field(const Scene& scene) {
+    if (scene.config.initial.velocity == deck::InitialVelocity::taylor_green) return taylor_green_pressure(scene);
+    if (scene.config.initial.pressure == deck::InitialPressure::linear) return linear_pressure(scene);
+    const double level = scene.reference_pressure;   // zero above the level: no shock where nothing drives
+    return {[=](const Vec3&) { return level; }, [](const Vec3&) { return Vec3{}; }};
+}
+
+}  // namespace
+
+void compute_initial_state(Scene& scene) {
+    FluidParticles& fluid = scene.fluid;
+    const VectorField velocity = velocity_field(scene);
+    const PressureField pressure = pressure_field(scene);
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        const Vec3& x = fluid.position[i];
+        fluid.velocity[i] = velocity(x);
+        fluid.pressure[i] = pressure.value(x) - scene.reference_pressure;
+        fluid.pressure_gradient[i] = pressure.gradient(x);
+        fluid.pressure_rate[i] = 0;
+        fluid.viscosity[i] = scene.material.viscosity;
+    }
+}
+
+}  // namespace patency

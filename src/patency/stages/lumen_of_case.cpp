@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/lumen_of_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/base/text.h"
+
+namespace patency {
+
+namespace {
+
+std::vector<AxialRadius> outline_of(const deck::Shape& shape) {
+    switch (shape.type) {
+        case deck::ShapeType::channel: return {{0, 0.5 * shape.gap}, {shape.length, 0.5 * shape.gap}};
+        case deck::ShapeType::box: return {{0, 0.5 * shape.size.y}, {shape.size.x, 0.5 * shape.size.y}};
+        case deck::ShapeType::tube: return {{0, 0.5 * shape.diameter}, {shape.length, 0.5 * shape.diameter}};
+        case deck::ShapeType::cone: return {{0, 0.5 * shape.diameters.at(0)}, {shape.length, 0.5 * shape.diameters.at(1)}};
+        case deck::ShapeType::nozzle: {
+            std::vector<AxialRadius> outline;
+            for (const deck::NozzleSection& s : shape.sections) outline.push_back({s.z, 0.5 * s.diameter});
+            return outline;
+        }
+        case deck::ShapeType::branches: break;
+    }
+    return {};
+}
+
+Lumen make_box_of(const deck::Case& config, const deck::Shape& shape) {
+    const char* names[3][2] = {{"inlet", "outlet"}, {"y_low", "y_high"}, {"z_low", "z_high"}};
+    BoxShape box{.size = shape.size, .planar = shape.planar};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_open = config.openings.contains(names[k][0]) || config.openings.contains(names[k][1]);
+        box.sides[k] = shape.periodic[k] ? Side::periodic : is_open ? Side::open : Side::wall;
+    }
+    return make_box(box);
+}
+
+/// Ends of branches that lie in no other branch are openings: inlet at the only free `from`, outlet_NAME at a free `to`.
+Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
+    const auto& branches = shape.branches;
+    const auto is_free = [&](const Vec3& x, std::size_t self) {
+        for (std::size_t k = 0; k < branches.size(); ++k) {
+            if (k == self) continue;
+            const deck::Branch& b = branches[k];
+            const SignedDistance other = union_of_round_cones({{b.from, b.to, 0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}});
+            if (other.value(x) < 0) return false;
+        }
+        return true;
+    };
+    std::vector<std::size_t> starts, ends;
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+        if (is_free(branches[k].from, k)) starts.push_back(k);
+        if (is_free(branches[k].to, k)) ends.push_back(k);
+    }
+    // Far enough for the buffer, the wall beyond it and its kernels.
+    BranchesShape result{.branches = {}, .extension = 12 * config.numerics.spacing};
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+        const deck::Branch& b = branches[k];
+        BranchShape branch{.points = {b.from, b.to}, .radii = {0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}, .start = {}, .end = {}};
+        if (std::find(starts.begin(), starts.end(), k) != starts.end())
+            branch.start = starts.size() == 1 ? "inlet" : "inlet_" + b.name;
+        if (std::find(ends.begin(), ends.end(), k) != ends.end()) branch.end = ends.size() == 1 ? "outlet" : "outlet_" + b.name;
+        result.branches.push_back(branch);
+    }
+    return make_branches(result);
+}
+
+Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
+    const auto ends = config.openings.empty() ? Side::periodic : Side::open;
+    const auto along_axis = [&] { return motion_along(shape.axis, shape.start); };
+    switch (shape.type) {
+        case deck::ShapeType::channel: return make_channel({.length = shape.length, .gap = shape.gap, .ends = ends});
+        case deck::ShapeType::box: return make_box_of(config, shape);
+        case deck::ShapeType::tube:
+            return moved(make_tube({.length = shape.length, .radius = 0.5 * shape.diameter, .ends = ends}), along_axis());
+        case deck::ShapeType::cone:
+        case deck::ShapeType::nozzle: return moved(make_nozzle({outline_of(shape)}), along_axis());
+        case deck::ShapeType::branches: return make_branches_of(config, shape);
+    }
+    throw GeometryError("geometry.shape.type is none of the known ones");
+}
+
+void expect_same_names(const deck::Case& config, const Lumen& lumen) {
+    std::vector<std::string> names;
+    for (const Opening& opening : lumen.openings) names.push_back(opening.name);
+    for (const auto& [name, opening] : config.openings) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        const std::string nearest = nearest_name(name, names);
+        throw DeckError(fmt::format("openings.{}: the shape has no such opening{}; it has {}", name,
+                                    nearest.empty() ? "" : ", did you mean " + nearest + "?",
+                                    names.empty() ? "none" : join(names, ", ", " and ")));
+    }
+    for (const std::string& name : names)
+        if (!config.openings.contains(name))
+            throw DeckError(fmt::format("openings.{}: what happens at this opening is missing; the shape has {}", name,
+                                        join(names, ", ", " and ")));
+}
+
+}  // namespace
+
+Lumen make_lumen(const deck::Case& config) {
+    if (!config.geometry.shape)
+        throw GeometryError("geometry.surface and geometry.network come with the surface reader; use geometry.shape");
+    Lumen lumen = make_unchecked(config, *config.geometry.shape);
+    expect_same_names(config, lumen);
+    return lumen;
+}
+
+double StraightAxis::radial(const Vec3& x) const {
+    const Vec3 d = x - start;
+    return norm(d - dot(d, direction) * direction);
+}
+
+double StraightAxis::radius_at(double place) const {
+    if (place <= outline.front().axial) return outline.front().radius;
+    for (std::size_t k = 1; k < outline.size(); ++k) {
+        const AxialRadius &a = outline[k - 1], &b = outline[k];
+        if (place <= b.axial && b.axial > a.axial)
+            return a.radius + (place - a.axial) / (b.axial - a.axial) * (b.radius - a.radius);
+    }
+    return outline.back().radius;
+}
+
+std::optional<StraightAxis> find_straight_axis(const deck::Shape& shape) {
+    const std::vector<AxialRadius> outline = outline_of(shape);
+    if (outline.empty() || (shape.type == deck::ShapeType::box && !shape.planar)) return {};
+    const double length = outline.back().axial - outline.front().axial;
+    if (shape.is_planar()) return StraightAxis{{0, outline.front().radius, 0}, {1, 0, 0}, length, Section::planar, outline};
+    return StraightAxis{shape.start, normalized(shape.axis), length, Section::circular, outline};
+}
+
+double narrowest_width(const deck::Shape& shape) {
+    if (shape.type == deck::ShapeType::box)
+        return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
+    double width = Bounds::infinity;
+    for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
+    for (const deck::Branch& b : shape.branches)
+        for (const double d : b.diameters) width = std::min(width, d);
+    return width;
+}
+
+std::string_view plane_wall_name(const Vec3& n) {
+    if (std::abs(n.x) > std::abs(n.y) && std::abs(n.x) > std::abs(n.z)) return n.x < 0 ? "x_low" : "x_high";
+    if (std::abs(n.y) > std::abs(n.z)) return n.y < 0 ? "y_low" : "y_high";
+    return n.z < 0 ? "z_low" : "z_high";
+}
+
+}  // namespace patency

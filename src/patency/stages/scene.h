@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene: everything a stage works on, in memory. Made by build.h, moved on by flow.h; knows no files.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "patency/bodies/fluid.h"
+#include "patency/bodies/open_end.h"
+#include "patency/bodies/relax.h"
+#include "patency/bodies/wall.h"
+#include "patency/config/case.h"
+#include "patency/schemes/flow_scheme.h"
+#include "patency/search/cells.h"
+#include "patency/shape/lumen.h"
+#include "patency/stages/end_law.h"
+
+namespace patency {
+
+struct Scene {
+    Scene() = default;
+    Scene(const Scene&) = delete;   // the scheme refers to the particles
+    Scene& operator=(const Scene&) = delete;
+
+    deck::Case config;
+    Lumen lumen{.distance = everywhere(), .openings = {}, .volume = 0, .wall_area = 0, .bounds = {}};
+    std::unique_ptr<Frame> frame;
+    FluidParticles fluid;
+    WallParticles wall;
+    std::vector<OpenEnd> ends;    ///< as lumen.openings
+    std::vector<EndLaw> laws;     ///< as ends: what the deck imposes there
+    FluidMaterial material;
+    FlowNumerics numerics;
+    std::unique_ptr<FlowScheme> scheme;
+    RelaxQuality relax_quality{}; ///< of the points it started from
+
+    double time = 0;                 ///< [s]
+    double reference_pressure = 0;   ///< p_ref: fluid.pressure is above it [Pa]
+    double last_dt = 0;              ///< of the last advection step [s]
+    double unsettled = 0;            ///< length of an acoustic step that the ends' integrals lack; 0 between steps [s]
+    std::int64_t acoustic_steps = 0, advection_steps = 0;
+
+    /// Pressure of a particle as the deck counts it [Pa].
+    double pressure_of(std::size_t i) const { return fluid.pressure[i] + reference_pressure; }
+};
+
+}  // namespace patency

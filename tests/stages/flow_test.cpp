@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a deck to moving blood: the flows that openings impose, the pressures they answer with, exact times, thread
+// independence, and clear ends of runs that go wrong.
+#include "patency/stages/flow.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+
+#include "patency/analysis/sample.h"
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/stages/build.h"
+#include "tests/stages/decks.h"
+
+namespace patency {
+namespace {
+
+constexpr double gap = 1e-3, length = 4e-3, peak = 0.165, viscosity = 3.5e-3;
+constexpr double gradient = 8 * viscosity * peak / (gap * gap);   // THEORY.md (12.1) solved for -dp/dx
+
+std::unique_ptr<Scene> built(const ChannelDeck& deck) { return build_scene(deck::parse_case(deck.text())); }
+
+// Largest deviation from the parabola across the middle, over the peak.
+double profile_error(const Scene& scene) {
+    std::vector<Vec3> places;
+    for (int k = 0; k < 12; ++k) places.push_back({0.5 * length, (k + 0.5) / 12 * gap, 0});
+    double worst = 0;
+    const auto samples = sample_flow(scene.fluid, *scene.frame, places, 2.6 * scene.numerics.spacing, true);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const double y = places[k].y, exact = 4 * peak * y * (gap - y) / (gap * gap);
+        worst = std::max(worst, std::abs(samples[k].velocity.x - exact) / peak);
+    }
+    return worst;
+}
+
+TEST(Flow, a_parabola_from_a_velocity_inlet_stays_a_parabola) {
+    const auto scene = built({});
+    advance(*scene, {.until = 0.01});
+    EXPECT_EQ(scene->time, 0.01);
+    // The scheme is exact for quadratic fields on a lattice; what is left are the openings' and the rounding of moving
+    // particles, both well below a percent at this spacing (numerics.md 9.1: 0.8 % for schemes of second order).
+    EXPECT_LT(profile_error(*scene), 0.01);
+    EXPECT_NEAR(scene->ends[1].flow, 2.0 / 3 * peak * gap, 0.01 * peak * gap);
+}
+
+TEST(Flow, the_inlet_pressure_of_a_prescribed_flow_is_poiseuilles) {
+    const auto scene = built({});
+    advance(*scene, {.until = 0.01});
+    const EndLaw& inlet = scene->laws[0];
+    // The mean over the run that started from the exact field. Sound waves of a few thousandths of rho c u are
+    // averaged out; 3 % of the drop is the acceptance of the pipe case at this resolution.
+    EXPECT_NEAR(inlet.pressure_time / scene->time, gradient * length, 0.03 * gradient * length);
+}
+
+TEST(Flow, pressures_drive_poiseuilles_flow_whatever_their_level) {
+    const auto deck = [](double level) {
+        ChannelDeck d;
+        d.inlet = fmt::format("{{type: pressure, pressure: \"{} Pa\"}}", level + gradient * length);
+        d.outlet = fmt::format("{{type: pressure, pressure: \"{} Pa\"}}", level);
+        return d;
+    };
+    const auto gauge = built(deck(0)), absolute = built(deck(10000));
+    advance(*gauge, {.until = 0.01});
+    advance(*absolute, {.until = 0.01});
+    const double flow = 2.0 / 3 * peak * gap;
+    EXPECT_NEAR(gauge->laws[1].volume_out / 0.01, flow, 0.01 * flow);
+    // The scene is solved above the moving level, so an offset is only its rounding: 1e-12 of 10 kPa in doubles, which
+    // the single-precision sums see as nothing.
+    EXPECT_NEAR(absolute->laws[1].volume_out, gauge->laws[1].volume_out, 1e-6 * flow * 0.01);
+    EXPECT_NEAR(absolute->laws[0].pressure_time - gauge->laws[0].pressure_time, 100, 1e-6);
+}
+
+TEST(Flow, a_resistance_outlet_stands_at_its_pressure) {
+    ChannelDeck deck;
+    const double flow = 2.0 / 3 * peak * gap, resistance = 1e8;
+    deck.outlet = "{type: resistance, resistance: \"1e8 Pa s/m^3\", distal_pressure: \"500 Pa\"}";
+    const auto scene = built(deck);
+    advance(*scene, {.until = 0.01});
+    // p = p_d + R Q for the mean flow, which the law is linear in; the flow itself follows the inlet's within a percent.
+    const double mean_flow = scene->laws[1].volume_out / 0.01;
+    EXPECT_NEAR(scene->laws[1].pressure_time / 0.01, 500 + resistance * mean_flow, 1e-3 * resistance * flow);
+    EXPECT_NEAR(mean_flow, flow, 0.01 * flow);
+}
+
+TEST(Flow, exact_times_are_hit_exactly) {
+    const auto scene = built({});
+    std::vector<double> times;
+    advance(*scene, {.until = 2e-3, .observe = [&](const Scene& s, const FlowStep&) { times.push_back(s.time); }, .exact_times = {3e-4, 1.1e-3}});
+    EXPECT_NE(std::find(times.begin(), times.end(), 3e-4), times.end());
+    EXPECT_NE(std::find(times.begin(), times.end(), 1.1e-3), times.end());
+    EXPECT_EQ(times.back(), 2e-3);
+}
+
+TEST(Flow, an_interrupted_run_stops_after_a_whole_step) {
+    const auto scene = built({});
+    int steps = 0;
+    advance(*scene, {.until = 1, .interrupted = [&] { return ++steps == 3; }});
+    EXPECT_EQ(scene->advection_steps, 3);
+    EXPECT_LT(scene->time, 1);
+}
+
+TEST(Flow, threads_do_not_change_a_bit) {
+    std::vector<Vec3> first;
+    for (const int threads : {1, 2, 3, 4}) {
+        omp_set_num_threads(threads);
+        const auto scene = built({});
+        advance(*scene, {.until = 2e-3});
+        const std::vector<Vec3> velocity(scene->fluid.velocity.begin(), scene->fluid.velocity.end());
+        if (first.empty()) first = velocity;
+        EXPECT_TRUE(velocity == first) << threads << " threads";
+    }
+    omp_set_num_threads(omp_get_num_procs());
+}
+
+TEST(Flow, a_nan_is_reported_with_its_place) {
+    const auto scene = built({});
+    advance(*scene, {.until = 1e-3});
+    scene->fluid.velocity[17].y = NAN;
+    EXPECT_THROW(advance(*scene, {.until = 2e-3}), DivergedError);
+}
+
+TEST(Flow, a_collapsing_time_step_is_reported) {
+    ChannelDeck deck;
+    deck.numerics = "reference_speed: \"1 mm/s\", sound_speed: \"2 m/s\"";   // the blood is 165 times as fast
+    const auto scene = built(deck);
+    try {
+        advance(*scene, {.until = 1e-3});
+        FAIL() << "no error";
+    } catch (const DivergedError& error) {
+        EXPECT_NE(std::string(error.what()).find("time step collapsed"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Build, openings_must_be_the_shapes) {
+    ChannelDeck deck;
+    std::string text = deck.text();
+    text.replace(text.find("  outlet:"), 9, "  outlets:");
+    try {
+        build_scene(deck::parse_case(text));
+        FAIL() << "no error";
+    } catch (const DeckError& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean outlet?"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace patency
