@@ -7,6 +7,7 @@ list(TRANSFORM folders REPLACE " +" ";")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/floors.txt)
 # Linked last to first, so that a folder sees those before it.
 foreach(folder ${folders})
+  set(PATENCY_BELOW_${folder} ${PATENCY_FLOORS})   # what the tests of a folder without sources need
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/${folder}/*.cpp)
   if(NOT sources)
     continue()

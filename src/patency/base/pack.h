@@ -49,7 +49,7 @@ struct Pack {
     Register v;
 
     Pack() = default;
-    PATENCY_INLINE Pack(T s) : v(Register{} + s) {}
+    PATENCY_INLINE Pack(T s) : v(s - Register{}) {}   // x - 0 is x, also for -0
     PATENCY_INLINE explicit Pack(Register r) : v(r) {}
     PATENCY_INLINE static Pack load(const T* p) { Pack r; std::memcpy(&r.v, p, sizeof r.v); return r; }
     PATENCY_INLINE void store(T* p) const { std::memcpy(p, &v, sizeof v); }

@@ -64,10 +64,16 @@ Frame::Frame(const Vec3& low, const Vec3& high, double support, const std::array
     }
     inverse_quantum_ = 1 / quantum_;
     const Vec3 size = high - low;
-    const double longest = std::max({size.x, size.y, size.z});
-    if (!any_periodic() && !(longest < 1000 * support))
-        throw GeometryError(fmt::format("the domain is {:.4g} m long, more than 1000 kernel supports of {:.3g} m: "
-                                        "use a coarser spacing or a shorter domain", longest, support));
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = component(size, axis), turn = 4294967296.0 * quantum_;
+        if (!any_periodic() && !(side < 1000 * support))
+            throw GeometryError(fmt::format("the domain is {:.4g} m long, more than 1000 kernel supports of {:.3g} m: "
+                                            "use a coarser spacing or a shorter domain", side, support));
+        // A longer distance would wrap onto a short one.
+        if (any_periodic() && !periodic[std::size_t(axis)] && !(side + support <= turn))
+            throw GeometryError(fmt::format("a periodic side of {:.4g} m is too short for a box of {:.4g} m and a kernel support of "
+                                            "{:.3g} m across it: make the periodic side longer", turn, side, support));
+    }
     const Vec3 centre = 0.5 * (low + high);
     centre_ = {centre.x, centre.y, centre.z};
     axes_ = {0, 1, 2};

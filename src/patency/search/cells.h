@@ -20,7 +20,7 @@ public:
     /// box: corners [m] of everything that will ever be there; support: largest kernel support [m].
     /// Throws GeometryError if the box exceeds the range of the coordinates (about 1000 supports).
     /// Along periodic axes the box repeats itself and a difference takes the short way round, at no cost: there the box
-    /// is 2^32 quanta long and the integers wrap. All periodic sides must be equal.
+    /// is 2^32 quanta long and the integers wrap. All periodic sides must be equal, and longer than the others by a support.
     Frame(const Vec3& low, const Vec3& high, double support, const std::array<bool, 3>& periodic = {});
 
     double quantum() const { return quantum_; }   ///< [m]
@@ -105,7 +105,7 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
         const std::int64_t gap_b = gap(b, 1);
         for (std::int64_t a = a0; a <= a1; ++a) {
             const std::int64_t gap_a = gap(a, 0);
-            if (gap_a * gap_a + gap_b * gap_b >= r2) continue;
+            if (gap_a >= reach || gap_b >= reach || gap_a * gap_a + gap_b * gap_b >= r2) continue;   // (squares overflow)
             const std::size_t column = std::size_t(b * columns_[0] + a);
             const std::uint32_t begin = column_start_[column], end = column_start_[column + 1];
             if (begin == end) continue;

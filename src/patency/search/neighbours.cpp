@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -24,6 +25,7 @@ struct Candidates {
     std::vector<std::uint32_t> index;
     std::vector<float> x, y, z;
     std::size_t count = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;   // of particles in memory, where the candidates are looked for
 
     void reserve(std::size_t n) {
         if (index.size() >= n + 32) return;
@@ -128,8 +130,8 @@ struct Workspace {
     std::vector<std::uint32_t> rows;                           // of members, as indices into row_start
 };
 
-void collect_chunk(const Frame& frame, const Cells& own, const Cells& other, std::size_t begin, std::size_t end,
-                   std::int64_t reach, float reach2, const std::array<std::int32_t, 3>& reference, Candidates& out) {
+/// Of the particles [begin, end), around the first of them, the reference.
+Box box_around(const Cells& own, std::size_t begin, std::size_t end, const std::array<std::int32_t, 3>& reference) {
     Box box{{0, 0, 0}, {0, 0, 0}};
     for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -137,13 +139,27 @@ void collect_chunk(const Frame& frame, const Cells& own, const Cells& other, std
             box.low[k] = std::min(box.low[k], d);
             box.high[k] = std::max(box.high[k], d);
         }
+    return box;
+}
+
+/// Whether differences to the box around a chunk may wrap in a periodic frame, along whatever axis: a chunk spread over
+/// half a period would see particles behind it before it.
+bool wraps(const Frame& frame, const Box& box, float reach) {
+    constexpr float half = 2147483648.0f, margin = 1.001f;   // of rounding in float
+    const auto wide = [&](std::size_t k) { return margin * (std::max(-box.low[k], box.high[k]) + reach) >= half; };
+    return frame.any_periodic() && (wide(0) || wide(1) || wide(2));
+}
+
+void collect_chunk(const Frame& frame, const Box& box, const Cells& other, std::int64_t reach, float reach2,
+                   const std::array<std::int32_t, 3>& reference, Candidates& out) {
     std::array<std::int64_t, 3> low, high;
     for (std::size_t k = 0; k < 3; ++k) {
         low[k] = std::int64_t(reference[k]) + std::int64_t(box.low[k]) - 1;
         high[k] = std::int64_t(reference[k]) + std::int64_t(box.high[k]) + 1;
     }
     out.count = 0;
-    const auto visit = [&](std::uint32_t b, std::uint32_t e) { collect(other, b, e, reference, box, reach2, out); };
+    out.runs.clear();
+    const auto visit = [&](std::uint32_t b, std::uint32_t e) { out.runs.emplace_back(b, e); };
     // The images of the chunk that may see particles on the far side of a periodic box.
     std::array<std::int64_t, 3> from{}, to{};
     constexpr std::int64_t turn = std::int64_t(1) << 32, half = turn / 2;
@@ -157,6 +173,13 @@ void collect_chunk(const Frame& frame, const Cells& own, const Cells& other, std
             for (std::int64_t a = from[0]; a <= to[0]; ++a)
                 other.for_each_run({low[0] + a * turn, low[1] + b * turn, low[2] + c * turn},
                                    {high[0] + a * turn, high[1] + b * turn, high[2] + c * turn}, reach, visit);
+    std::uint32_t done = 0;   // runs of different images may overlap, where the box is a few columns wide
+    if (from != to) std::sort(out.runs.begin(), out.runs.end());
+    for (const auto& [first, last] : out.runs) {
+        if (last <= done) continue;
+        collect(other, std::max(first, done), last, reference, box, reach2, out);
+        done = last;
+    }
 }
 
 /// Puts the rows of the block's members side by side, `lanes` at a time.
@@ -222,11 +245,16 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
             const std::size_t first = b * particles_per_block, last = std::min(count, first + particles_per_block);
             work.rows.clear();
             std::size_t filled = 0;
-            for (std::size_t begin = first; begin < last; begin += chunk) {
-                const std::size_t end = std::min(last, begin + chunk);
+            for (std::size_t begin = first, end = first; begin < last; begin = end) {
+                end = std::min(last, begin + chunk);
                 const std::array<std::int32_t, 3> reference{own.coordinate(0)[begin], own.coordinate(1)[begin],
                                                             own.coordinate(2)[begin]};
-                collect_chunk(frame, own, other, begin, end, reach_integer, reach2, reference, work.candidates);
+                Box box = box_around(own, begin, end, reference);
+                while (end > begin + 1 && wraps(frame, box, reach_quanta)) {
+                    end = begin + (end - begin) / 2;
+                    box = box_around(own, begin, end, reference);
+                }
+                collect_chunk(frame, box, other, reach_integer, reach2, reference, work.candidates);
                 for (std::size_t i = begin; i < end; ++i) {
                     if (work.row_entries.size() < filled + work.candidates.count + 32)
                         work.row_entries.resize(2 * (filled + work.candidates.count) + 65536);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of neighbours, laid out for packs (SELL): the particles of a group of `lanes` have their k-th neighbours side by
-// side, short rows are padded with terms that vanish. Every row is in rising order of (image, index), whatever the lanes.
+// side, short rows are padded with terms that vanish. Every row is in rising order, whatever the lanes.
 #pragma once
 
 #include <cstdint>
