@@ -27,7 +27,7 @@ struct FluidParticles : ParticleSet {
     Field<double> volume{*this, "volume", "m^3", Keep::state};                ///< at rest; m^2 in the plane
     Field<std::int32_t> opening{*this, "opening", "1", Keep::state};          ///< 0 inside, else 1 + the opening's index; negative in the tail
     Field<Vec3> pressure_gradient{*this, "pressure_gradient", "Pa/m", Keep::state};
-    Field<Mat3> velocity_gradient{*this, "velocity_gradient", "1/s", Keep::scratch};   ///< row a: gradient of v_a
+    Field<Mat3> velocity_gradient{*this, "velocity_gradient", "1/s", Keep::state};   ///< row a: gradient of v_a
     Field<double> viscosity{*this, "viscosity", "Pa s", Keep::state};
     Field<Vec3> slow_acceleration{*this, "slow_acceleration", "m/s^2", Keep::scratch};
 };

@@ -70,8 +70,8 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
                 const bool member = std::abs(fluid.opening[i]) == std::int32_t(k) + 1;
                 if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
                 if (member) end.buffer.push_back({i, s, imposed_share(s / spacing)});
-                else if (s < 0) {   // a weight that vanishes at both ends: nothing jumps when a particle passes
-                    const double share = -s / (fit_depth * spacing);
+                else {   // a weight that vanishes at both ends: nothing jumps when a particle passes
+                    const double share = std::max(0.0, -s / (fit_depth * spacing));
                     end.inside.push_back({i, s, share * (1 - share) * fluid.volume[i]});
                 }
                 const double hat = 1 - std::abs(s) / (slab_half_width * spacing);

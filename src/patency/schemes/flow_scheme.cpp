@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
@@ -33,7 +34,12 @@ constexpr double nearest_wall_distance = 0.3;
 // A particle nearer than this share of a spacing is led back, by this share of what is missing per step. In a relaxed
 // arrangement the first layer stands at 0.5.
 constexpr double wall_clearance = 0.4;
-constexpr double wall_return = 0.2;
+constexpr double wall_return = 0.5;
+// How much farther ahead than half a step the pressure of the next kick looks along its own change by compression: a bulk
+// viscosity of this share of dt c^2 that quietens sound and leaves blood that does not expand alone.  THEORY.md (4.2)
+constexpr double bulk_share = 0.5;
+// Passes per advection step; a flow that strains undoes the order within a few steps (docs/VERIFICATION.md, taylor_green).
+constexpr int shift_passes = 2;
 // The shift of one step is at most this share of a spacing: beyond it the correction of the fields is not linear.
 constexpr double largest_shift = 0.1;
 // Stability of the explicit viscous term: the largest eigenvalue of the operator (3.5) is about 12/h^2 in space.
@@ -92,6 +98,7 @@ public:
     FlowStep step(double time, double longest) override {
         sort_particles();
         find_neighbours();
+        for (int pass = 0; pass < shift_passes; ++pass) shift_particles();
         find_members(domain_.fluid, numerics_.spacing, domain_.ends);
         write_velocity_records();
         compute_moments();
@@ -107,7 +114,8 @@ public:
             impose_velocity(time + (k + 1) * dt);
             compress(dt);
         }
-        shift_particles();
+        move_particles();
+        if (domain_.ends.empty()) hold_mean_pressure();
         exchange_particles(domain_.fluid, numerics_.spacing, kernel_.support(), domain_.ends);
         return report;
     }
@@ -180,6 +188,14 @@ private:
         geometry_.reset(n + 1), pressure_.reset(n + 1), velocity_.reset(n + 1);
         const auto& x = domain_.fluid.position;
         for_each_index(n, [&](std::size_t i) { geometry_[i] = record(x[i], T(0)); });
+        measure_wall_distances();
+        geometry_[n] = pressure_[n] = dummy_record();
+        geometry_[n].d = T(1);   // a distance to the wall, which is divided by
+        velocity_[n] = {T(0), T(0), T(0), T(0)};
+    }
+
+    void measure_wall_distances() {
+        const auto& x = domain_.fluid.position;
         for_each_index(wall_rows_.block_count(), [&](std::size_t b) {
             const auto& block = wall_rows_.block(b);
             for (std::size_t m = 0; m < block.member_count; ++m) {
@@ -188,9 +204,43 @@ private:
                 geometry_[i].d = T(s / loop_unit());
             }
         });
-        geometry_[n] = pressure_[n] = dummy_record();
-        geometry_[n].d = T(1);   // a distance to the wall, which is divided by
-        velocity_[n] = {T(0), T(0), T(0), T(0)};
+    }
+
+    /// Moves particles towards where there are fewer, so that sum w d = 0 all but holds: then a constant pressure makes
+    /// no force in any form, and the gradient and the divergence are adjoint, so that pressure does no work of its own.
+    /// The fields stay where they are.                                                             THEORY.md (6.1)
+    void shift_particles() {
+        FluidParticles& fluid = domain_.fluid;
+        const std::size_t n = fluid.size();
+        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : std::pow(numerics_.spacing, 3);
+        const double scale = 2 * numerics_.shift * kernel_.h * kernel_.h * kernel_.slope() * cell * loop_unit();
+        shift_.resize(n);
+        const auto vector = [](const std::array<T, 3>& sum) { return Vec3{sum[0], sum[1], sum[2]}; };
+        sum_over_neighbours<T>(rows_, scale_, Records<T, 0>{geometry_.data()}, Records<T, 0>{geometry_.data()}, terms::Crowding{},
+                               [&](std::uint32_t i, const std::array<T, 3>& sum) { shift_[i] = scale * vector(sum); }, numerics_.loop);
+        sum_over_neighbours<T>(wall_rows_, scale_, Records<T, 0>{geometry_.data()}, Records<T, 0>{wall_geometry_.data()}, terms::Crowding{},
+                               [&](std::uint32_t i, const std::array<T, 3>& sum) {
+                                   const double distance = double(geometry_[i].d) * loop_unit();
+                                   const double missing = wall_clearance * numerics_.spacing - distance;
+                                   shift_[i] += scale * vector(sum);
+                                   if (missing > 0) {   // the wall pushes along its own w d
+                                       const double length = norm(vector(sum));
+                                       if (length > 0) shift_[i] += (wall_return * missing / length) * vector(sum);
+                                   }
+                               },
+                               numerics_.loop);
+        const double limit = largest_shift * numerics_.spacing;
+        for_each_index(n, [&](std::size_t i) {
+            if (fluid.opening[i] < 0) return;
+            const double length = norm(shift_[i]);
+            const Vec3 shift = length > limit ? (limit / length) * shift_[i] : shift_[i];
+            fluid.position[i] += shift;
+            fluid.velocity[i] += fluid.velocity_gradient[i] * shift;
+            fluid.pressure[i] += dot(fluid.pressure_gradient[i], shift);
+            const T value = geometry_[i].d;
+            geometry_[i] = record(fluid.position[i], value);
+        });
+        measure_wall_distances();
     }
 
     void write_velocity_records() {
@@ -223,13 +273,9 @@ private:
 
     /// Correction matrices of gradient and Laplacian, and the shift, of every particle.
     void compute_corrections() {
-        FluidParticles& fluid = domain_.fluid;
-        const std::size_t n = fluid.size();
+        const std::size_t n = domain_.fluid.size();
         closures_.reset(n + 1), laplacian_diagonal_.reset(n + 1), laplacian_mixed_.reset(n + 1);
-        shift_.resize(n);
         const double unit = loop_unit();
-        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : std::pow(numerics_.spacing, 3);
-        const double shift_scale = 2 * numerics_.shift * kernel_.h * kernel_.h * kernel_.slope() * cell * unit;
         for_each_index(n, [&](std::size_t i) {
             std::array<double, terms::moments> m;
             for (std::size_t s = 0; s < m.size(); ++s) m[s] = moments_[i][s];
@@ -249,21 +295,8 @@ private:
             const Sym<double> a = laplacian_correction(m, numerics_.planar);
             laplacian_diagonal_[i] = {T(a.xx), T(a.yy), T(a.zz), T(0)};
             laplacian_mixed_[i] = {T(a.xy), T(a.xz), T(a.yz), T(0)};
-            Vec3 shift = shift_scale * Vec3{m[6], m[7], m[8]};
-            const double length = norm(shift), limit = largest_shift * numerics_.spacing;
-            if (length > limit) shift = (limit / length) * shift;
-            if (const std::uint32_t k = wall_of_[i]; k != no_wall) shift += away_from_wall(i, wall_moments_[k]);
-            shift_[i] = fluid.opening[i] >= 0 ? shift : Vec3{};
         });
         laplacian_diagonal_[n] = laplacian_mixed_[n] = {T(0), T(0), T(0), T(0)};
-    }
-
-    /// Particles stay clear of the wall: the linear mirror divides by their distance.
-    Vec3 away_from_wall(std::uint32_t i, const WallSums& wall) const {
-        const double missing = wall_clearance * numerics_.spacing - double(geometry_[i].d) * loop_unit();
-        const Vec3 normal{wall[31], wall[32], wall[33]};
-        const double length = norm(normal);
-        return missing > 0 && length > 0 ? (-wall_return * missing / length) * normal : Vec3{};
     }
 
     Mat3 second_moment(const std::array<double, terms::moments>& m) const {
@@ -400,7 +433,8 @@ private:
                 fluid.pressure_gradient[i] = {gradient.x, gradient.y, gradient.z};
                 const Vec3 a = fluid.slow_acceleration[i] +
                                Vec3{inverse_density * gradient.x, inverse_density * gradient.y, inverse_density * gradient.z};
-                const Vec3 before = fluid.velocity[i], after = before + dt * a;
+                const Vec3 before = fluid.velocity[i];
+                const Vec3 after = fluid.opening[i] >= 0 ? before + dt * a : before;   // a tail is renewed after the step
                 fluid.velocity[i] = after;
                 moved_[i] += 0.5 * dt * (before + after);
                 velocity_[i] = {T(after.x), T(after.y), T(after.z), pressure_[i].d};
@@ -434,7 +468,7 @@ private:
                 const double rate = -stiffness * double(divergence) - smoothing * jump + dot(fluid.velocity[i], g);
                 fluid.pressure[i] += 0.5 * dt * (fluid.pressure_rate[i] + rate);
                 fluid.pressure_rate[i] = rate;
-                pressure_[i].d = T(fluid.pressure[i] + 0.5 * dt * rate);
+                pressure_[i].d = T(fluid.pressure[i] + 0.5 * dt * rate - bulk_share * stiffness * dt * double(divergence));
             },
             numerics_.loop);
     }
@@ -473,17 +507,21 @@ private:
             }
     }
 
-    /// Particles move with the blood and a little towards where there are fewer; the fields stay where they are.
-    void shift_particles() {
+    void move_particles() {
         FluidParticles& fluid = domain_.fluid;
-        for_each_index(fluid.size(), [&](std::size_t i) {
-            const Vec3 shift = shift_[i];
-            fluid.position[i] += moved_[i] + shift;
-            fluid.velocity[i] += fluid.velocity_gradient[i] * shift;
-            fluid.pressure[i] += dot(fluid.pressure_gradient[i], shift);
-        });
+        for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] += moved_[i]; });
     }
 
+    /// Nothing but the divergence tells the level of the pressure in a closed domain, and the divergence of a closed domain
+    /// is zero in the mean, which the sums only know to their order: the mean stays what it was.     THEORY.md (4.3)
+    void hold_mean_pressure() {
+        FluidParticles& fluid = domain_.fluid;
+        const double mean = sum_of(fluid.size(), [&](std::size_t i) { return fluid.pressure[i]; }) / double(fluid.size());
+        if (!closed_mean_) closed_mean_ = mean;
+        for_each_index(fluid.size(), [&](std::size_t i) { fluid.pressure[i] -= mean - *closed_mean_; });
+    }
+
+    std::optional<double> closed_mean_;
     static constexpr std::uint32_t no_wall = UINT32_MAX;
 
     FlowDomain domain_;

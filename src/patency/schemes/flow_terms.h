@@ -40,6 +40,18 @@ struct Compression {
     }
 };
 
+/// sum w d: towards where there are fewer particles.                                              THEORY.md (6.1)
+struct Crowding {
+    static constexpr int own_extras = 0, extras = 0, sums = 3;
+    template <class P>
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&, std::array<P, 3>& sum) const {
+        const P w = pair.t * pair.t * pair.t;
+        sum[0] = fma(w, pair.d.x, sum[0]);
+        sum[1] = fma(w, pair.d.y, sum[1]);
+        sum[2] = fma(w, pair.d.z, sum[2]);
+    }
+};
+
 /// The moments of the arrangement, once per advection step, over blood or wall:
 ///   0-5 M = sum w d d      6-8 sum w d      9-11 sum w r d
 ///   12-26 sum w d d d d / r^2: xxxx yyyy zzzz xxyy xxzz yyzz xxxy xxxz xyyy yyyz xzzz yzzz xxyz xyyz xyzz
