@@ -200,8 +200,7 @@ private:
             const auto& block = wall_rows_.block(b);
             for (std::size_t m = 0; m < block.member_count; ++m) {
                 const std::uint32_t i = block.members[m];
-                const double s = std::max(-domain_.distance(x[i]), nearest_wall_distance * numerics_.spacing);
-                geometry_[i].d = T(s / loop_unit());
+                geometry_[i].d = T(-domain_.distance(x[i]) / loop_unit());
             }
         });
     }
@@ -215,39 +214,42 @@ private:
         const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : std::pow(numerics_.spacing, 3);
         const double scale = 2 * numerics_.shift * kernel_.h * kernel_.h * kernel_.slope() * cell * loop_unit();
         shift_.resize(n);
+        const double limit = largest_shift * numerics_.spacing;
         const auto vector = [](const std::array<T, 3>& sum) { return Vec3{sum[0], sum[1], sum[2]}; };
+        const auto limited = [&](const Vec3& shift) {
+            const double length = norm(shift);
+            return length > limit ? (limit / length) * shift : shift;
+        };
         sum_over_neighbours<T>(rows_, scale_, Records<T, 0>{geometry_.data()}, Records<T, 0>{geometry_.data()}, terms::Crowding{},
                                [&](std::uint32_t i, const std::array<T, 3>& sum) { shift_[i] = scale * vector(sum); }, numerics_.loop);
         sum_over_neighbours<T>(wall_rows_, scale_, Records<T, 0>{geometry_.data()}, Records<T, 0>{wall_geometry_.data()}, terms::Crowding{},
                                [&](std::uint32_t i, const std::array<T, 3>& sum) {
-                                   const double distance = double(geometry_[i].d) * loop_unit();
-                                   const double missing = wall_clearance * numerics_.spacing - distance;
+                                   const double length = norm(vector(sum));
+                                   if (!(length > 0)) return;
+                                   const Vec3 away = vector(sum) / length;   // from the wall
+                                   const double missing = wall_clearance * numerics_.spacing - double(geometry_[i].d) * loop_unit();
                                    shift_[i] += scale * vector(sum);
-                                   if (missing > 0) {   // the wall pushes along its own w d
-                                       const double length = norm(vector(sum));
-                                       if (length > 0) shift_[i] += (wall_return * missing / length) * vector(sum);
-                                   }
+                                   if (missing > 0) shift_[i] += wall_return * missing * away;
+                                   geometry_[i].d += T(dot(limited(shift_[i]), away) / loop_unit());   // to first order
                                },
                                numerics_.loop);
-        const double limit = largest_shift * numerics_.spacing;
         for_each_index(n, [&](std::size_t i) {
             if (fluid.opening[i] < 0) return;
-            const double length = norm(shift_[i]);
-            const Vec3 shift = length > limit ? (limit / length) * shift_[i] : shift_[i];
+            const Vec3 shift = limited(shift_[i]);
             fluid.position[i] += shift;
             fluid.velocity[i] += fluid.velocity_gradient[i] * shift;
             fluid.pressure[i] += dot(fluid.pressure_gradient[i], shift);
-            const T value = geometry_[i].d;
-            geometry_[i] = record(fluid.position[i], value);
+            geometry_[i] = record(fluid.position[i], geometry_[i].d);
         });
-        measure_wall_distances();
     }
 
     void write_velocity_records() {
         const FluidParticles& fluid = domain_.fluid;
+        const T nearest = T(nearest_wall_distance * numerics_.spacing / loop_unit());
         for_each_index(fluid.size(), [&](std::size_t i) {
             const Vec3& v = fluid.velocity[i];
             velocity_[i] = {T(v.x), T(v.y), T(v.z), T(fluid.viscosity[i] / material_.viscosity)};
+            geometry_[i].d = max(geometry_[i].d, nearest);
         });
     }
 
