@@ -23,7 +23,7 @@ double imposed_share(double s_in_spacings) {
 
 /// The velocity of blood that is about to enter at the far end of a buffer: as inside, at the same place of the section.
 /// A copy of the parent's would close a loop that only adds up the errors of the buffer. Exact for quadratic profiles,
-/// with the mean of both ends' gradients.                                                           THEORY.md (8.3)
+/// with the mean of both ends' gradients.                                                           THEORY.md (8.7)
 Vec3 velocity_inside(const FluidParticles& fluid, const OpenEnd& end, std::uint32_t parent, double spacing) {
     const double depth = 0.5 * fit_depth * spacing, reach = depth;
     const Vec3 x = fluid.position[parent] - (end.axial(fluid.position[parent]) + depth) * end.normal;

@@ -61,7 +61,7 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
 /// Straight line through the pressure of the particles just inside: mean and slope at a velocity end; the slope through
 /// the imposed value at a pressure end. pressure(i) gives that of particle i [Pa].
 /// The value that an outlet model wants depends on the flow, and the flow answers to the value within the step, by the
-/// acoustic admittance of the section: both are solved for together, or a stiff model would ring.    THEORY.md (8.4)
+/// acoustic admittance of the section: both are solved for together, or a stiff model would ring.    THEORY.md (8.8)
 /// `impedance` is rho c of the blood [Pa s/m].
 void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std::uint32_t)>& pressure);
 

@@ -36,7 +36,7 @@ constexpr double nearest_wall_distance = 0.3;
 constexpr double wall_clearance = 0.4;
 constexpr double wall_return = 0.5;
 // How much farther ahead than half a step the pressure of the next kick looks along its own change by compression: a bulk
-// viscosity of this share of dt c^2 that quietens sound and leaves blood that does not expand alone.  THEORY.md (4.2)
+// viscosity of this share of dt c^2 that quietens sound and leaves blood that does not expand alone.  THEORY.md (4.7)
 constexpr double bulk_share = 0.5;
 // Passes per advection step; a flow that strains undoes the order within a few steps (docs/VERIFICATION.md, taylor_green).
 constexpr int shift_passes = 2;
@@ -346,7 +346,7 @@ private:
         }
         // What the gradient alone contributes is taken off: exact for linear fields.               THEORY.md (3.5)
         laplacian += unit * (gradient * first);
-        // The other half of the stress of a viscosity that varies: (grad v)^T grad mu.             THEORY.md (10.1)
+        // The other half of the stress of a viscosity that varies: (grad v)^T grad mu.             THEORY.md (3.7)
         const Vec3 thinning = correct * Vec3{sum[15], sum[16], sum[17]};
         const double nu = material_.kinematic_viscosity(), scale = nu / (unit * unit);
         Vec3 viscous = scale * laplacian + nu * (transpose(gradient) * thinning);
@@ -364,7 +364,7 @@ private:
         if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(gradient));
     }
 
-    /// sqrt(2 D:D), D the rate of deformation [1/s].                                               THEORY.md (10.2)
+    /// sqrt(2 D:D), D the rate of deformation [1/s].                                               THEORY.md (10.1)
     static double shear_rate(const Mat3& g) {
         const Mat3 d = 0.5 * (g + transpose(g));
         return std::sqrt(2 * (dot(d.x, d.x) + dot(d.y, d.y) + dot(d.z, d.z)));
@@ -422,7 +422,7 @@ private:
         });
     }
 
-    /// v += dt (-grad p / rho + slow acceleration), and the way of half a step before and after.    THEORY.md (7.2)
+    /// v += dt (-grad p / rho + slow acceleration), and the way of half a step before and after.    THEORY.md (7.4)
     void kick(double dt) {
         FluidParticles& fluid = domain_.fluid;
         const T inverse_density = T(-1 / material_.density);
@@ -444,7 +444,7 @@ private:
             numerics_.loop);
     }
 
-    /// p += -rho c^2 div v dt + dissipation, and half a step more for the next kick.                THEORY.md (4.1), (7.3)
+    /// p += -rho c^2 div v dt + dissipation, and half a step more for the next kick.                THEORY.md (4.6), (7.4)
     void compress(double dt) {
         FluidParticles& fluid = domain_.fluid;
         const double unit = loop_unit(), c = material_.sound_speed;
@@ -466,7 +466,7 @@ private:
                 const Vec3& g = fluid.pressure_gradient[i];
                 const double jump = double(s[6]) - unit * (g.x * m[9] + g.y * m[10] + g.z * m[11]);
                 // Blood does not expand on its way down a pressure gradient: the artificial compressibility acts at a
-                // fixed place, and a particle takes up the pressure of the places it comes to.     THEORY.md (2.3)
+                // fixed place, and a particle takes up the pressure of the places it comes to.     THEORY.md (2.6)
                 const double rate = -stiffness * double(divergence) - smoothing * jump + dot(fluid.velocity[i], g);
                 fluid.pressure[i] += 0.5 * dt * (fluid.pressure_rate[i] + rate);
                 fluid.pressure_rate[i] = rate;
@@ -515,7 +515,7 @@ private:
     }
 
     /// Nothing but the divergence tells the level of the pressure in a closed domain, and the divergence of a closed domain
-    /// is zero in the mean, which the sums only know to their order: the mean stays what it was.     THEORY.md (4.3)
+    /// is zero in the mean, which the sums only know to their order: the mean stays what it was.     THEORY.md (4.8)
     void hold_mean_pressure() {
         FluidParticles& fluid = domain_.fluid;
         const double mean = sum_of(fluid.size(), [&](std::size_t i) { return fluid.pressure[i]; }) / double(fluid.size());

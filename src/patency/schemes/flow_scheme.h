@@ -23,8 +23,8 @@ struct FlowNumerics {
     double advection_cfl = 0.25;
     double acoustic_cfl = 0.6;
     double reference_speed = 0;     ///< a speed that will be reached, so that the first steps are not too long [m/s]
-    double dissipation = 0.3;       ///< of pressure, as a share of the Riemann solver's           THEORY.md (4.1)
-    double shift = 0.4;             ///< of particles towards where there are fewer; from 0.5 on it overshoots   THEORY.md (6.1)
+    double dissipation = 0.3;       ///< of pressure, as a share of the Riemann solver's           THEORY.md (4.6)
+    double shift = 0.4;             ///< of particles towards where there are fewer; from 0.5 on it overshoots   THEORY.md (6.2)
     bool free_slip = false;
     Vec3 body_force{};              ///< acceleration [m/s^2]
     LoopKind loop = LoopKind::packed;

@@ -22,7 +22,7 @@ struct PressureGradient {
 };
 
 /// The symmetric part of sum w (v_i - v_j) d (xx, yy, zz, xy, xz, yz), for the divergence, and sum w r (p_i - p_j), for
-/// the dissipation of pressure. Extra quad: (v, p).                                            THEORY.md (3.4), (4.1)
+/// the dissipation of pressure. Extra quad: (v, p).                                            THEORY.md (3.4), (4.6)
 struct Compression {
     static constexpr int own_extras = 1, extras = 1, sums = 7;
     template <class P>
