@@ -77,7 +77,7 @@ FlowSample evaluate(const std::vector<Datum>& data, bool planar, double reach) {
 /// Points of the wall's surface near a place, a third of the reach apart around its foot.
 void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool planar, const WallHint& wall) {
     const double distance = wall.distance(place);
-    if (!(distance < 0) || -distance >= reach) return;
+    if (!(std::abs(distance) < reach)) return;
     const Vec3 n = wall.normal(place);
     const Vec3 other = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 a = planar ? Vec3{-n.y, n.x, 0} : normalized(cross(n, other)), b = planar ? Vec3{} : cross(n, a);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency check: all mistakes of a deck at once, then what the flow will be and cost. Runs nothing.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "deck_options.h"
+#include "patency/stages/build.h"
+#include "patency/stages/plan.h"
+
+namespace patency::app {
+
+namespace {
+
+std::string readable_time(double seconds) {
+    if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
+    return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+void check(const DeckOptions& options) {
+    const deck::Case config = options.read();
+    const auto scene = build_frame(config);
+    const FlowPlan plan = plan_flow(*scene, options.apply_threads(config));
+    fmt::print("{}: the deck is right\n", options.path);
+    fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", plan.reynolds);
+    fmt::print("  largest speed        {:.3g} m/s\n", plan.speed);
+    fmt::print("  sound speed          {:.3g} m/s\n", plan.sound_speed);
+    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, {:.3g} acoustic steps in all\n", plan.advection_step,
+               plan.acoustic_step, plan.acoustic_steps);
+    fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles,
+               plan.wall_particles, plan.across_narrowest);
+    fmt::print("  memory               about {:.0f} MB\n", plan.memory / 1e6);
+    fmt::print("  expected time        about {} on {} threads\n", readable_time(plan.seconds), plan.threads);
+    if (plan.across_narrowest < 12)
+        fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, ExitCode&) {
+    CLI::App* command = program.add_subcommand("check", "report all mistakes of a deck, and what it will cost; runs nothing");
+    const auto options = std::make_shared<DeckOptions>();
+    options->add_to(*command);
+    command->callback([options] { check(*options); });
+}
+
+}  // namespace patency::app

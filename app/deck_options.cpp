@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deck_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "patency/base/errors.h"
+#include "patency/base/text.h"
+
+namespace patency::app {
+
+void DeckOptions::add_to(CLI::App& command) {
+    command.add_option("case", path, "the deck (YAML)")->required();
+    command.add_option("--set", settings, "change a key of the deck: key=value; may be repeated")->expected(1)->take_all();
+    command.add_option("--run", run, "which of the deck's runs");
+    command.add_option("--threads", threads, "how many threads; the deck's or one per core if absent")->check(CLI::Range(1, 1024));
+}
+
+deck::Case DeckOptions::read() const {
+    const std::vector<deck::NamedCase> runs = deck::read_runs(path, settings);
+    if (run.empty() && runs.size() == 1) return runs.front().resolved;
+    std::vector<std::string> names;
+    for (const deck::NamedCase& named : runs) {
+        if (named.name == run) return named.resolved;
+        names.push_back(named.name);
+    }
+    throw UsageError(run.empty() ? fmt::format("the deck has several runs; choose one with --run: {}", join(names, ", ", " or "))
+                                 : fmt::format("the deck has no run '{}'; it has {}", run, join(names, ", ", " and ")));
+}
+
+int DeckOptions::apply_threads(const deck::Case& config) const {
+    const int wanted = threads > 0 ? threads : config.numerics.threads;
+    if (wanted > 0) omp_set_num_threads(wanted);
+    return omp_get_max_threads();
+}
+
+}  // namespace patency::app

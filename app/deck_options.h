@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that every command with a deck has, and the case they choose.
+#pragma once
+
+#include <string>
+
+#include "patency/config/deck.h"
+
+namespace CLI {
+class App;
+}
+
+namespace patency::app {
+
+struct DeckOptions {
+    std::string path;
+    deck::Settings settings;   ///< --set key=value
+    std::string run;           ///< --run NAME
+    int threads = 0;           ///< --threads; 0: the deck's
+
+    void add_to(CLI::App& command);
+    /// The deck, with the settings over it; of a deck with runs the one asked for. Throws DeckError, FileError, UsageError.
+    deck::Case read() const;
+    /// Bounds the threads: --threads, else numerics.threads, else one per core. Returns how many there are.
+    int apply_threads(const deck::Case& config) const;
+};
+
+}  // namespace patency::app

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program from outside: exit codes and what it says.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/stages/decks.h"
+
+namespace patency {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Result {
+    int exit_code;
+    std::string output;
+};
+Result patency(const std::string& arguments) {
+    const std::string command = fmt::format("'{}' {} 2>&1", PATENCY_BINARY, arguments);
+    std::FILE* pipe = popen(command.c_str(), "r");
+    Result result{-1, {}};
+    std::array<char, 4096> chunk;
+    while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), pipe)) result.output.append(chunk.data(), n);
+    const int status = pclose(pipe);
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return result;
+}
+
+class Commands : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / fmt::format("patency_app_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::string write(const std::string& text) const {
+        std::ofstream(folder_ / "case.yaml") << text;
+        return (folder_ / "case.yaml").string();
+    }
+    std::string out() const { return (folder_ / "out").string(); }
+    fs::path folder_;
+};
+
+TEST_F(Commands, version_and_schema_answer) {
+    EXPECT_EQ(patency("version").exit_code, 0);
+    const Result schema = patency("schema");
+    EXPECT_EQ(schema.exit_code, 0);
+    EXPECT_NE(schema.output.find("\"$schema\""), std::string::npos);
+}
+
+TEST_F(Commands, a_wrong_command_line_is_2) {
+    EXPECT_EQ(patency("").exit_code, 2);
+    EXPECT_EQ(patency("flwo").exit_code, 2);
+    EXPECT_EQ(patency("flow").exit_code, 2);
+    EXPECT_EQ(patency("--help").exit_code, 0);
+}
+
+TEST_F(Commands, all_mistakes_of_a_deck_come_at_once_and_are_3) {
+    std::string text = ChannelDeck{}.text();
+    text.replace(text.find("3.5 mPa s"), 9, "3.5 mmHg ");
+    text.replace(text.find("duration"), 8, "duratoin");
+    const Result result = patency("check " + write(text));
+    EXPECT_EQ(result.exit_code, 3) << result.output;
+    EXPECT_NE(result.output.find("Did you mean \"duration\"?"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("blood.viscosity"), std::string::npos) << result.output;
+}
+
+TEST_F(Commands, check_says_what_a_case_costs_and_writes_nothing) {
+    const Result result = patency("check " + write(ChannelDeck{}.text()));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    for (const char* word : {"Reynolds", "sound speed", "particles", "memory", "expected time"})
+        EXPECT_NE(result.output.find(word), std::string::npos) << word;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 1);   // the deck
+}
+
+TEST_F(Commands, a_missing_deck_is_7) { EXPECT_EQ(patency("check " + (folder_ / "none.yaml").string()).exit_code, 7); }
+
+TEST_F(Commands, a_surface_is_4_until_it_can_be_read) {
+    std::string text = ChannelDeck{}.text();
+    const std::string shape = "shape: {type: channel, gap: \"1 mm\", length: \"4 mm\"}";
+    text.replace(text.find(shape), shape.size(), "surface: lumen.stl, unit: mm");
+    EXPECT_EQ(patency("check " + write(text)).exit_code, 4);
+}
+
+TEST_F(Commands, flow_writes_its_results) {
+    const Result result = patency(fmt::format("flow {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    for (const char* name : {"summary.json", "timing.json", "waveforms.csv", "log.txt", "case.resolved.yaml"})
+        EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+}
+
+TEST_F(Commands, a_foreign_folder_is_7) {
+    fs::create_directories(out());
+    std::ofstream(folder_ / "out" / "thesis.txt") << "all of it";
+    EXPECT_EQ(patency(fmt::format("flow {} -o {}", write(ChannelDeck{}.text()), out())).exit_code, 7);
+}
+
+TEST_F(Commands, a_flow_that_runs_away_is_5) {
+    ChannelDeck deck;
+    deck.numerics = "reference_speed: \"1 mm/s\", sound_speed: \"2 m/s\"";
+    const Result result = patency(fmt::format("flow {} -o {} --threads 1", write(deck.text()), out()));
+    EXPECT_EQ(result.exit_code, 5) << result.output;
+    EXPECT_FALSE(fs::exists(folder_ / "out" / "summary.json"));
+}
+
+TEST_F(Commands, an_interrupt_is_130_and_a_termination_143) {
+    const std::string deck = write(ChannelDeck{.across = 25, .duration = "10 s"}.text());   // minutes, were it not stopped
+    const auto stopped_by = [&](int signal) {
+        const pid_t child = fork();
+        if (child == 0) {
+            std::freopen("/dev/null", "w", stderr);
+            execl(PATENCY_BINARY, "patency", "flow", deck.c_str(), "-o", out().c_str(), "--threads", "1", nullptr);
+            _exit(99);
+        }
+        // Once there are waveforms it computes.
+        for (int wait = 0; wait < 300 && !fs::exists(folder_ / "out" / "waveforms.csv"); ++wait) usleep(100000);
+        kill(child, signal);
+        int status = 0;
+        waitpid(child, &status, 0);
+        fs::remove(folder_ / "out" / "waveforms.csv");
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    };
+    EXPECT_EQ(stopped_by(SIGINT), 130);
+    EXPECT_EQ(stopped_by(SIGTERM), 143);
+}
+
+}  // namespace
+}  // namespace patency

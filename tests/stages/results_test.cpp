@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is kept of a flow: the state that a run goes on from, means and the audit of mass, tables, the summary.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/stages/build.h"
+#include "patency/stages/flow.h"
+#include "patency/stages/flow_recorder.h"
+#include "patency/stages/result_files.h"
+#include "patency/stages/run_flow.h"
+#include "patency/stages/scene_state.h"
+#include "tests/stages/decks.h"
+
+namespace patency {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double mean_flow = 2.0 / 3 * 0.165 * 1e-3;   // m2/s of ChannelDeck's inlet
+
+deck::Case parsed(const ChannelDeck& deck) { return deck::parse_case(deck.text()); }
+
+/// All kept fields, as a checkpoint would hold them.
+void copy_particles(const ParticleSet& from, ParticleSet& to) {
+    to.resize(from.size());
+    for (std::size_t f = 0; f < from.fields().size(); ++f) {
+        if (from.fields()[f]->keep() != Keep::state) continue;
+        const auto bytes = std::as_const(*from.fields()[f]).bytes();
+        std::copy(bytes.begin(), bytes.end(), to.fields()[f]->bytes().begin());
+    }
+}
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+struct Folder {
+    fs::path path = fs::temp_directory_path() / fmt::format("patency_results_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    Folder() { fs::remove_all(path); }
+    ~Folder() { fs::remove_all(path); }
+};
+
+TEST(SceneState, a_restored_scene_goes_on_with_the_same_bits) {
+    ChannelDeck deck;
+    deck.outlet = "{type: rcr, proximal_resistance: \"1e6 Pa s/m^3\", distal_resistance: \"1e7 Pa s/m^3\", compliance: \"1e-9 m^3/Pa\"}";
+    const deck::Case config = parsed(deck);
+    const double middle = 1e-3, end = 2e-3;
+
+    const auto whole = build_scene(config);
+    advance(*whole, {.until = end, .exact_times = {middle}});
+
+    const auto first = build_scene(config);
+    advance(*first, {.until = middle});
+    const auto second = build_frame(config);
+    copy_particles(first->fluid, second->fluid);
+    copy_particles(first->wall, second->wall);
+    restore_numbers(*second, numbers_of(*first));
+    start_scheme(*second);
+    advance(*second, {.until = end});
+
+    ASSERT_EQ(second->fluid.size(), whole->fluid.size());
+    EXPECT_TRUE(std::equal(whole->fluid.position.begin(), whole->fluid.position.end(), second->fluid.position.begin()));
+    EXPECT_TRUE(std::equal(whole->fluid.velocity.begin(), whole->fluid.velocity.end(), second->fluid.velocity.begin()));
+    EXPECT_TRUE(std::equal(whole->fluid.pressure.begin(), whole->fluid.pressure.end(), second->fluid.pressure.begin()));
+    EXPECT_EQ(numbers_of(*whole), numbers_of(*second));
+}
+
+TEST(SceneState, numbers_of_another_case_are_refused) {
+    const auto scene = build_frame(parsed({}));
+    NamedNumbers numbers = numbers_of(*scene);
+    numbers.reals.erase("law_volume_out");
+    EXPECT_THROW(restore_numbers(*scene, numbers), CheckpointError);
+    numbers = numbers_of(*scene);
+    numbers.reals["end_flow"].push_back(0);   // a third opening
+    EXPECT_THROW(restore_numbers(*scene, numbers), CheckpointError);
+}
+
+TEST(FlowMeans, what_flows_in_flows_out_or_is_compressed) {
+    const auto scene = build_scene(parsed({}));
+    advance(*scene, {.until = 5e-3});
+    const FlowMark from = mark_flow(*scene);
+    advance(*scene, {.until = 10e-3});
+    const FlowMark to = mark_flow(*scene);
+    EXPECT_NEAR(mean_between(from, to, 0, 1e-3).flow, -mean_flow, 0.005 * mean_flow);
+    EXPECT_LT(mass_imbalance_percent(from, to), 0.2);   // the bar of design: steady states
+}
+
+TEST(FlowMeans, a_mark_knows_a_flow_that_only_compresses) {
+    FlowMark from{.time = 0, .volume_out = {0, 0}, .pressure_time = {0, 0}}, to = from;
+    to.time = 1;
+    to.volume_out = {-3, 1};   // three in, one out: two stay
+    EXPECT_EQ(mass_imbalance_percent(from, to), 100);
+    to.compressed = 2;
+    EXPECT_EQ(mass_imbalance_percent(from, to), 0);
+}
+
+TEST(FlowRecorder, rows_of_waveforms_add_up_to_what_flowed) {
+    const auto scene = build_scene(parsed({}));
+    FlowRecorder recorder(*scene);
+    ASSERT_EQ(recorder.tables().front().columns,
+              (std::vector<std::string>{"time_s", "inlet_flow_m2_per_s", "inlet_mean_pressure_pa", "outlet_flow_m2_per_s", "outlet_mean_pressure_pa"}));
+    double volume = 0, last = 0;
+    recorder.write_row = [&](std::size_t, std::span<const double> row) {
+        volume += row[3] * (row[0] - last);
+        last = row[0];
+    };
+    advance(*scene, {.until = 0.01, .observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s); }});
+    EXPECT_EQ(last, 0.01);
+    EXPECT_NEAR(volume, scene->laws[1].volume_out, 1e-12 * volume);   // sums of as many differences as rows
+}
+
+TEST(FlowRecorder, a_profile_is_written_at_its_time_and_only_inside) {
+    ChannelDeck deck;
+    deck.more = R"(output:
+  profiles: [{name: middle, from: ["2 mm", "-0.5 mm", "0 mm"], to: ["2 mm", "1.5 mm", "0 mm"], points: 9, times: ["3 ms"]}]
+)";
+    const auto scene = build_scene(parsed(deck));
+    FlowRecorder recorder(*scene);
+    std::vector<std::vector<double>> rows;
+    recorder.write_row = [&](std::size_t table, std::span<const double> row) {
+        if (table == 1) rows.emplace_back(row.begin(), row.end());
+    };
+    FlowRun run{.until = 0.01, .exact_times = recorder.exact_times()};
+    run.observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s); };
+    advance(*scene, run);
+    ASSERT_EQ(rows.size(), 5u);   // of nine places a quarter millimetre apart, y = 0, 0.25, .. 1 mm are in the gap
+    for (const auto& row : rows) {
+        const double y = row[3], exact = 4 * 0.165 * y * (1e-3 - y) / 1e-6;
+        EXPECT_EQ(row[0], 3e-3);
+        EXPECT_NEAR(row[5], exact, 0.01 * 0.165) << y;   // the flow's own accuracy, as in flow_test.cpp
+    }
+}
+
+TEST(FlowRecorder, probes_outside_the_blood_are_refused) {
+    ChannelDeck deck;
+    deck.more = "output: {probes: [{name: lost, point: [\"2 mm\", \"1.2 mm\", \"0 mm\"]}]}\n";
+    const auto scene = build_scene(parsed(deck));
+    EXPECT_THROW(FlowRecorder{*scene}, DeckError);
+}
+
+TEST(Summary, refuses_numbers_that_are_none) {
+    const auto scene = build_scene(parsed({}));
+    const FlowMark from = mark_flow(*scene);
+    advance(*scene, {.until = 1e-3});
+    EXPECT_NO_THROW(make_summary(*scene, from));
+    scene->laws[0].volume_out = NAN;
+    EXPECT_THROW(make_summary(*scene, from), DivergedError);
+}
+
+TEST(RunFlow, threads_do_not_change_the_summary) {
+    Folder folder;
+    ChannelDeck deck;
+    deck.duration = "2 ms";
+    std::string first;
+    for (const int threads : {1, 2, 3, 4}) {
+        omp_set_num_threads(threads);
+        EXPECT_EQ(run_flow(parsed(deck), {.out = folder.path}), Outcome::done);
+        const std::string text = text_of(folder.path / "summary.json");
+        EXPECT_FALSE(text.empty());
+        if (first.empty()) first = text;
+        EXPECT_EQ(text, first) << threads << " threads";
+    }
+    omp_set_num_threads(omp_get_num_procs());
+}
+
+TEST(RunFlow, keeps_the_contract_of_its_files) {
+    Folder folder;
+    ChannelDeck deck;
+    deck.duration = "2 ms";
+    run_flow(parsed(deck), {.out = folder.path});
+    const auto summary = nlohmann::json::parse(text_of(folder.path / "summary.json"));
+    for (const char* key : {"pressure_datum", "gauge_pressure_ratio", "mass_imbalance_percent", "acoustic_steps", "scheme"})
+        EXPECT_TRUE(summary.contains(key)) << key;
+    EXPECT_EQ(summary["pressure_datum"], "gauge");
+    EXPECT_TRUE(summary["ffr"]["lesion"].is_null());
+    EXPECT_FALSE(summary["ffr"]["reason"].get<std::string>().empty());
+    for (const char* key : {"flow_m3_per_s", "mean_pressure_pa", "mean_velocity_m_per_s"})
+        EXPECT_TRUE(summary["openings"]["outlet"].contains(key)) << key;
+    for (const char* key : {"fluid", "wall", "across_narrowest"}) EXPECT_TRUE(summary["particles"].contains(key)) << key;
+    const auto timing = nlohmann::json::parse(text_of(folder.path / "timing.json"));
+    EXPECT_TRUE(timing["flow"].contains("cpu_s") && timing["flow"].contains("wall_s"));
+    // The resolved deck is the case again.
+    deck::Case again = deck::read_case(folder.path / "case.resolved.yaml");
+    EXPECT_EQ(again, parsed(deck));
+}
+
+TEST(RunFlow, an_interrupted_run_leaves_no_summary) {
+    Folder folder;
+    EXPECT_EQ(run_flow(parsed({}), {.out = folder.path, .interrupted = [] { return true; }}), Outcome::interrupted);
+    EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
+}
+
+TEST(RunFlow, a_folder_of_somebody_else_is_refused) {
+    Folder folder;
+    fs::create_directories(folder.path);
+    std::ofstream(folder.path / "thesis.txt") << "all of it";
+    EXPECT_THROW(run_flow(parsed({}), {.out = folder.path}), FileError);
+    EXPECT_EQ(text_of(folder.path / "thesis.txt"), "all of it");
+}
+
+}  // namespace
+}  // namespace patency
