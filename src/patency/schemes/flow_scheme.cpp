@@ -40,35 +40,41 @@ constexpr double wall_return = 0.5;
 constexpr double bulk_share = 0.5;
 // Passes per advection step; a flow that strains undoes the order within a few steps (docs/VERIFICATION.md, taylor_green).
 constexpr int shift_passes = 2;
+// Advection cycles on one set of rows. Neighbours drift apart by less than a fifth of a spacing per cycle; what rows miss then
+// are pairs at the kernel's edge, and every sum is normalised by the moments of the same rows.
+constexpr int cycles_per_row = 2;
 // The shift of one step is at most this share of a spacing: beyond it the correction of the fields is not linear.
 constexpr double largest_shift = 0.1;
 // Stability of the explicit viscous term: the largest eigenvalue of the operator (3.5) is about 12/h^2 in space.
 constexpr double viscous_number = 0.125;
 
 /// A with sum w (e.A e) d d = 2 I, so that the weighted sum of differences is the Laplacian of any quadratic field.
-/// From the fourth moments m[12..26]; 6 equations for xx, yy, zz, xy, xz, yz.                     THEORY.md (3.6)
-Sym<double> laplacian_correction(const std::array<double, terms::moments>& m, bool planar) {
-    const double* q = &m[12];   // xxxx yyyy zzzz xxyy xxzz yyzz xxxy xxxz xyyy yyyz xzzz yzzz xxyz xyyz xyzz
-    double a[6][6] = {{q[0], q[3], q[4], 2 * q[6], 2 * q[7], 2 * q[12]},
-                      {0, q[1], q[5], 2 * q[8], 2 * q[13], 2 * q[9]},
-                      {0, 0, q[2], 2 * q[14], 2 * q[10], 2 * q[11]},
-                      {0, 0, 0, 4 * q[3], 4 * q[12], 4 * q[13]},
-                      {0, 0, 0, 0, 4 * q[4], 4 * q[14]},
-                      {0, 0, 0, 0, 0, 4 * q[5]}};
+/// From the fourth moments m[12..26]; 6 equations for xx, yy, zz, xy, xz, yz. P: a double, or a pack of them.
+///                                                                                                THEORY.md (3.6)
+template <class P>
+Sym<P> laplacian_correction(const std::array<P, terms::moments>& m, bool planar) {
+    const P* q = &m[12];   // xxxx yyyy zzzz xxyy xxzz yyzz xxxy xxxz xyyy yyyz xzzz yzzz xxyz xyyz xyzz
+    const P two(2), four(4);
+    P a[6][6] = {{q[0], q[3], q[4], two * q[6], two * q[7], two * q[12]},
+                 {q[3], q[1], q[5], two * q[8], two * q[13], two * q[9]},
+                 {q[4], q[5], q[2], two * q[14], two * q[10], two * q[11]},
+                 {q[3], q[3], q[3], four * q[3], four * q[12], four * q[13]},
+                 {q[4], q[4], q[4], q[4], four * q[4], four * q[14]},
+                 {q[5], q[5], q[5], q[5], q[5], four * q[5]}};   // only the upper half counts
     if (planar) a[2][2] = a[4][4] = a[5][5] = q[0];   // nothing happens across the plane
-    double b[6] = {2, 2, 2, 0, 0, 0};
-    // U^T D U of a symmetric positive matrix, in place (upper half), then the two substitutions.
-    double pivot[6];
+    P b[6] = {two, two, two, P(0), P(0), P(0)};
+    // U^T D U of a symmetric positive matrix, in place, then the two substitutions.
+    P pivot[6];
     for (int k = 0; k < 6; ++k) {
-        pivot[k] = 1 / a[k][k];
+        pivot[k] = P(1) / a[k][k];
         for (int i = k + 1; i < 6; ++i) {
-            const double f = a[k][i] * pivot[k];
-            for (int j = i; j < 6; ++j) a[i][j] -= f * a[k][j];
-            b[i] -= f * b[k];
+            const P f = a[k][i] * pivot[k];
+            for (int j = i; j < 6; ++j) a[i][j] = fma(-f, a[k][j], a[i][j]);
+            b[i] = fma(-f, b[k], b[i]);
         }
     }
     for (int k = 5; k >= 0; --k) {
-        for (int j = k + 1; j < 6; ++j) b[k] -= a[k][j] * b[j];
+        for (int j = k + 1; j < 6; ++j) b[k] = fma(-a[k][j], b[j], b[k]);
         b[k] *= pivot[k];
     }
     return {b[0], b[1], b[2], b[3], b[4], b[5]};
@@ -98,24 +104,32 @@ public:
     FlowStep step(double time, double longest) override {
         sort_particles();
         find_neighbours();
-        for (int pass = 0; pass < shift_passes; ++pass) shift_particles();
-        find_members(domain_.fluid, numerics_.spacing, domain_.ends);
-        write_velocity_records();
-        compute_moments();
-        compute_corrections();
-        compute_viscosity();
+        FlowStep report;
+        for (int cycle = 0; cycle < cycles_per_row && report.dt < longest; ++cycle) {
+            write_geometry_records();
+            for (int pass = 0; pass < shift_passes; ++pass) shift_particles();
+            find_members(domain_.fluid, numerics_.spacing, domain_.ends);
+            write_velocity_records();
+            compute_moments();
+            compute_corrections();
+            compute_viscosity();
 
-        FlowStep report = choose_step(longest);
-        const double dt = report.dt / report.acoustic_steps;
-        start_acoustic_steps(dt);
-        for (int k = 0; k < report.acoustic_steps; ++k) {
-            impose_pressure(time + k * dt, dt);
-            kick(dt);
-            impose_velocity(time + (k + 1) * dt);
-            compress(dt);
+            const FlowStep advection = choose_step(longest - report.dt);
+            const double dt = advection.dt / advection.acoustic_steps;
+            start_acoustic_steps(dt);
+            for (int k = 0; k < advection.acoustic_steps; ++k) {
+                impose_pressure(time + report.dt + k * dt, dt);
+                kick(dt);
+                impose_velocity(time + report.dt + (k + 1) * dt);
+                compress(dt);
+            }
+            move_particles();
+            if (domain_.ends.empty()) hold_mean_pressure();
+            // What is left of `longest` by rounding is none of another cycle's business.
+            report.dt = advection.dt < longest - report.dt ? report.dt + advection.dt : longest;
+            report.acoustic_steps += advection.acoustic_steps;
+            report.fastest = std::max(report.fastest, advection.fastest);
         }
-        move_particles();
-        if (domain_.ends.empty()) hold_mean_pressure();
         exchange_particles(domain_.fluid, numerics_.spacing, kernel_.support(), domain_.ends);
         return report;
     }
@@ -184,6 +198,9 @@ private:
     void find_neighbours() {
         rows_.find_own(domain_.frame, cells_, kernel_.support(), native_lanes<T>);
         wall_rows_.find_other(domain_.frame, cells_, wall_cells_, kernel_.support(), native_lanes<T>);
+    }
+
+    void write_geometry_records() {
         const std::size_t n = domain_.fluid.size();
         geometry_.reset(n + 1), pressure_.reset(n + 1), velocity_.reset(n + 1);
         const auto& x = domain_.fluid.position;
@@ -273,32 +290,51 @@ private:
                                numerics_.loop);
     }
 
-    /// Correction matrices of gradient and Laplacian, and the shift, of every particle.
+    /// Correction matrices of gradient and Laplacian, of every particle; a pack of particles at a time.
     void compute_corrections() {
+        using P = Pack<double>;
         const std::size_t n = domain_.fluid.size();
         closures_.reset(n + 1), laplacian_diagonal_.reset(n + 1), laplacian_mixed_.reset(n + 1);
-        const double unit = loop_unit();
-        for_each_index(n, [&](std::size_t i) {
-            std::array<double, terms::moments> m;
-            for (std::size_t s = 0; s < m.size(); ++s) m[s] = moments_[i][s];
-            const Mat3 own = inverse(second_moment(m));
-            Vec3 mirror{};
-            if (const std::uint32_t k = wall_of_[i]; k != no_wall) {
-                const WallSums& wall = wall_moments_[k];
-                for (std::size_t s = 0; s < m.size(); ++s) m[s] += wall[s];
-                mirror = {wall[27], wall[28], wall[29]};
+        for_each_block(n, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t first = begin; first < end; first += P::lanes) {
+                const std::size_t count = std::min<std::size_t>(P::lanes, end - first);
+                alignas(64) double gathered[terms::moments][P::lanes];
+                for (std::size_t l = 0; l < P::lanes; ++l) {   // the last pack repeats its first particle
+                    const auto m = correct_gradients(first + (l < count ? l : 0));
+                    for (std::size_t s = 0; s < m.size(); ++s) gathered[s][l] = m[s];
+                }
+                std::array<P, terms::moments> m;
+                for (std::size_t s = 0; s < m.size(); ++s) m[s] = P::load(gathered[s]);
+                const Sym<P> a = laplacian_correction(m, numerics_.planar);
+                for (std::size_t l = 0; l < count; ++l) {
+                    const int k = int(l);
+                    laplacian_diagonal_[first + l] = {T(a.xx[k]), T(a.yy[k]), T(a.zz[k]), T(0)};
+                    laplacian_mixed_[first + l] = {T(a.xy[k]), T(a.xz[k]), T(a.yz[k]), T(0)};
+                }
             }
-            const Mat3 all = inverse(second_moment(m));
-            Closure<T>& c = closures_[i];
-            c.pressure = symmetric<T>((1 / unit) * own);
-            c.velocity = symmetric<T>((1 / unit) * all);
-            const Vec3 by_wall = (1 / unit) * (all * mirror);
-            c.wall = {T(by_wall.x), T(by_wall.y), T(by_wall.z)};
-            const Sym<double> a = laplacian_correction(m, numerics_.planar);
-            laplacian_diagonal_[i] = {T(a.xx), T(a.yy), T(a.zz), T(0)};
-            laplacian_mixed_[i] = {T(a.xy), T(a.xz), T(a.yz), T(0)};
         });
         laplacian_diagonal_[n] = laplacian_mixed_[n] = {T(0), T(0), T(0), T(0)};
+    }
+
+    /// Writes the closure of particle i; returns its moments over blood and wall.
+    std::array<double, terms::moments> correct_gradients(std::size_t i) {
+        const double unit = loop_unit();
+        std::array<double, terms::moments> m;
+        for (std::size_t s = 0; s < m.size(); ++s) m[s] = moments_[i][s];
+        const Mat3 own = inverse(second_moment(m));
+        Vec3 mirror{};
+        if (const std::uint32_t k = wall_of_[i]; k != no_wall) {
+            const WallSums& wall = wall_moments_[k];
+            for (std::size_t s = 0; s < m.size(); ++s) m[s] += wall[s];
+            mirror = {wall[27], wall[28], wall[29]};
+        }
+        const Mat3 all = inverse(second_moment(m));
+        Closure<T>& c = closures_[i];
+        c.pressure = symmetric<T>((1 / unit) * own);
+        c.velocity = symmetric<T>((1 / unit) * all);
+        const Vec3 by_wall = (1 / unit) * (all * mirror);
+        c.wall = {T(by_wall.x), T(by_wall.y), T(by_wall.z)};
+        return m;
     }
 
     Mat3 second_moment(const std::array<double, terms::moments>& m) const {
