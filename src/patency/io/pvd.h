@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The time series of one body: a ParaView collection (.pvd) that lists frames with their times. Does
+// not write the frames.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace patency {
+
+class PvdWriter {
+public:
+    /// A new, empty series. Throws FileError.
+    explicit PvdWriter(const std::filesystem::path& path);
+    /// Go on with the series of an interrupted run: keeps the frames up to last_time (s). A missing file
+    /// begins anew; one that is not a collection is a FileError.
+    static PvdWriter resumed(const std::filesystem::path& path, double last_time);
+
+    /// Append a frame at time (s); the file is a path relative to the collection's folder. The collection
+    /// on disk is replaced as a whole: readers never see half of it. Throws FileError.
+    void add(double time, const std::filesystem::path& file);
+
+    std::size_t size() const { return frames_.size(); }   ///< frames so far: the number of the next one
+
+private:
+    struct Frame {
+        double time;
+        std::string file;
+    };
+    PvdWriter(const std::filesystem::path& path, std::vector<Frame> frames);
+    void write() const;
+
+    std::filesystem::path path_;
+    std::vector<Frame> frames_;
+};
+
+/// "frames/fluid_000012.vtp"
+std::filesystem::path frame_file(std::string_view body, std::size_t number);
+
+}   // namespace patency
