@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arguments in, exit code out. Commands stand in files of their own (commands.h).
 #include <CLI/CLI.hpp>
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -27,9 +30,18 @@ int run(int argc, char** argv) {
     return int(exit_code);
 }
 
+/// OpenMP's threads spin while they wait, which on a shared machine takes the time of those that work. libgomp reads its
+/// choice before main, so the program starts itself again with it, unless the user has made one.
+void let_threads_sleep(char** argv) {
+    if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+    ::setenv("OMP_WAIT_POLICY", "passive", 1);
+    ::execv("/proc/self/exe", argv);   // returns only if it fails: then they spin
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    let_threads_sleep(argv);
     try {
         return run(argc, argv);
     } catch (const patency::Error& error) {

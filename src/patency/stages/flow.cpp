@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "patency/base/errors.h"
+#include "patency/schemes/paper_scheme.h"
 
 namespace patency {
 
@@ -43,9 +44,8 @@ void start_scheme(Scene& scene) {
     const FlowDomain domain{scene.fluid, scene.wall, scene.ends, *scene.frame,
                             [&lumen = scene.lumen](const Vec3& x) { return lumen.distance.value(x); }};
     const bool is_mixed = scene.config.numerics.precision == deck::Precision::mixed;
-    if (scene.config.numerics.scheme == deck::SchemeName::paper)
-        throw DeckError("numerics.scheme: the paper's scheme is not there yet; use sph");
-    scene.scheme = make_flow_scheme(is_mixed ? Precision::mixed : Precision::double_precision, domain, scene.material, scene.numerics);
+    const auto make = scene.config.numerics.scheme == deck::SchemeName::paper ? make_paper_scheme : make_flow_scheme;
+    scene.scheme = make(is_mixed ? Precision::mixed : Precision::double_precision, domain, scene.material, scene.numerics);
     scene.scheme->update_ends = [&scene](std::span<OpenEnd>, double time, double dt) { update_ends(scene, time, dt); };
 }
 
