@@ -2,19 +2,16 @@
 // patency flow: the flow stage with its log, its progress line and its signals.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
-#include <filesystem>
+#include <cstdio>
 
 #include "commands.h"
 #include "deck_options.h"
-#include "patency/stages/result_files.h"
+#include "patency/io/hash.h"
+#include "patency/io/log_file.h"
 #include "patency/stages/run_flow.h"
 
 namespace patency::app {
@@ -27,61 +24,45 @@ void note_signal(int signal) {
     std::signal(signal, SIG_DFL);   // a second one ends the program at once
 }
 
-/// Rewrites one line on a terminal; elsewhere writes a line every half minute.
-class ProgressLine {
-public:
-    void show(const FlowProgress& p) {
-        const bool is_end = p.time >= p.duration;
-        if (!is_end && p.wall_seconds < next_) return;
-        next_ = p.wall_seconds + (is_terminal_ ? 0.2 : 30);
-        const double left = p.time > 0 ? p.wall_seconds * (p.duration - p.time) / p.time : 0;
-        const std::string line = fmt::format("flow {:5.1f} %  t {:.4g} s  step {}  in - out {:+.3g} m3/s  {:.0f} s left", 100 * p.time / p.duration,
-                                             p.time, p.steps, p.inflow_less_outflow, left);
-        if (is_terminal_) fmt::print(stderr, "\r\x1b[K{}{}", line, is_end ? "\n" : "");
-        else fmt::print(stderr, "{}\n", line);
-        std::fflush(stderr);
-    }
-
-private:
-    bool is_terminal_ = isatty(STDERR_FILENO);
-    double next_ = 0;
-};
-
 struct FlowOptions {
     DeckOptions deck;
     std::string out;
+    bool fresh = false;
 };
+
+Progress make_progress() {
+    const auto print = [](std::string_view text) {
+        fmt::print(stderr, "{}", text);
+        std::fflush(stderr);
+    };
+    if (!isatty(STDERR_FILENO)) return Progress(print);
+    return Progress(print, {.style = ProgressStyle::terminal, .interval = 0.2, .width = 0, .clock = {}});
+}
+
+void print_log(LogLevel, std::string_view line) { fmt::print(stderr, "{}\n", line); }
 
 ExitCode run(const FlowOptions& options) {
     const deck::Case config = options.deck.read();
     const int threads = options.deck.apply_threads(config);
-    const std::filesystem::path out = options.out;
-    open_result_folder(out);
-
-    const auto console = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-    console->set_pattern("%v");
-    std::shared_ptr<spdlog::sinks::basic_file_sink_mt> file;
-    try {
-        file = std::make_shared<spdlog::sinks::basic_file_sink_mt>((out / "log.txt").string(), true);
-    } catch (const spdlog::spdlog_ex& error) {
-        throw FileError(error.what());
-    }
-    spdlog::logger log("patency", {console, file});
-    log.flush_on(spdlog::level::info);
-    log.info("{} on {} threads", options.deck.path, threads);
+    const OutputFolder folder(options.out);
+    const bool goes_on = !options.fresh && folder.has_checkpoint("flow");
+    if (!goes_on) folder.clear();
+    const Log file = make_file_log(folder.file("log.txt"), goes_on ? LogMode::append : LogMode::begin);
+    const Log log = make_tee_log(file, print_log);
+    log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
 
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
-    ProgressLine progress;
-    const FlowStage stage{.out = out,
-                          .interrupted = [] { return caught_signal != 0; },
-                          .say = [&](std::string_view line) { log.info("{}", line); },
-                          .show = [&](const FlowProgress& p) { progress.show(p); }};
+    Progress progress = make_progress();
     try {
-        if (run_flow(config, stage) == Outcome::done) return ExitCode::ok;
+        const Outcome outcome = run_flow(config, {.folder = folder,
+                                                  .binary_hash = hex_text(hash_file("/proc/self/exe")),
+                                                  .interrupted = [] { return caught_signal != 0; },
+                                                  .log = log,
+                                                  .progress = &progress});
+        if (outcome == Outcome::done) return ExitCode::ok;
     } catch (const Error& error) {
-        file->log({"patency", spdlog::level::err, error.what()});   // on the terminal main.cpp says it
-        file->flush();
+        file(LogLevel::error, error.what());   // on the terminal main.cpp says it
         throw;
     }
     return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
@@ -93,7 +74,8 @@ void add_flow_command(CLI::App& program, ExitCode& exit_code) {
     CLI::App* command = program.add_subcommand("flow", "compute the blood flow");
     const auto options = std::make_shared<FlowOptions>();
     options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "the folder for the results")->required();
+    command->add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")->required();
+    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

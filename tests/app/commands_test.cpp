@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "tests/stages/decks.h"
 
@@ -31,6 +32,11 @@ Result patency(const std::string& arguments) {
     const int status = pclose(pipe);
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     return result;
+}
+
+std::string content(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 class Commands : public ::testing::Test {
@@ -93,7 +99,7 @@ TEST_F(Commands, a_surface_is_4_until_it_can_be_read) {
 TEST_F(Commands, flow_writes_its_results) {
     const Result result = patency(fmt::format("flow {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    for (const char* name : {"summary.json", "timing.json", "waveforms.csv", "log.txt", "case.resolved.yaml"})
+    for (const char* name : {"summary.json", "timing.json", "waveforms.csv", "log.txt", "case.resolved.yaml", "fluid.pvd", "checkpoint/flow.h5"})
         EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
 }
 
@@ -130,6 +136,36 @@ TEST_F(Commands, an_interrupt_is_130_and_a_termination_143) {
     };
     EXPECT_EQ(stopped_by(SIGINT), 130);
     EXPECT_EQ(stopped_by(SIGTERM), 143);
+}
+
+TEST_F(Commands, a_killed_run_goes_on_to_the_same_summary) {
+    const std::string deck = write(ChannelDeck{.duration = "60 ms", .more = "output: {checkpoint_interval: \"1 ms\"}\n"}.text());
+    const std::string whole = (folder_ / "whole").string();
+    ASSERT_EQ(patency(fmt::format("flow {} -o {} --threads 2", deck, whole)).exit_code, 0);
+
+    const pid_t child = fork();
+    if (child == 0) {
+        std::freopen("/dev/null", "w", stderr);
+        execl(PATENCY_BINARY, "patency", "flow", deck.c_str(), "-o", out().c_str(), "--threads", "1", nullptr);
+        _exit(99);
+    }
+    for (int wait = 0; wait < 3000 && !fs::exists(folder_ / "out" / "checkpoint" / "flow.h5"); ++wait) usleep(10000);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    ASSERT_FALSE(fs::exists(folder_ / "out" / "summary.json")) << "killed too late to tell anything";
+
+    const Result resumed = patency(fmt::format("flow {} -o {} --threads 1", deck, out()));
+    EXPECT_EQ(resumed.exit_code, 0);
+    EXPECT_NE(resumed.output.find("goes on at"), std::string::npos) << resumed.output;
+    EXPECT_EQ(content(folder_ / "out" / "summary.json"), content(folder_ / "whole" / "summary.json"));
+}
+
+TEST_F(Commands, another_decks_checkpoint_is_8_unless_begun_anew) {
+    const std::string deck = write(ChannelDeck{}.text());
+    const auto flow = [&](const std::string& more) { return patency(fmt::format("flow {} -o {} --threads 1 {}", deck, out(), more)).exit_code; };
+    EXPECT_EQ(flow("--set 'numerics.duration=1 ms'"), 0);
+    EXPECT_EQ(flow("--set 'numerics.duration=2 ms'"), 8);
+    EXPECT_EQ(flow("--set 'numerics.duration=2 ms' --fresh"), 0);
 }
 
 }  // namespace

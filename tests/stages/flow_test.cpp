@@ -133,6 +133,38 @@ TEST(Flow, a_collapsing_time_step_is_reported) {
     }
 }
 
+TEST(Build, an_inlet_too_narrow_for_particles_is_refused) {
+    // Two particles across the outlet.
+    const std::string text = R"(version: 1
+geometry: {shape: {type: branches, branches: [
+  {name: wide, from: ["0 mm", "0 mm", "0 mm"], to: ["10 mm", "0 mm", "0 mm"], diameters: ["4 mm", "4 mm"]},
+  {name: thin, from: ["10 mm", "0 mm", "0 mm"], to: ["20 mm", "0 mm", "0 mm"], diameters: ["4 mm", "0.9 mm"]}]}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings: {inlet: {type: velocity, velocity: "0.1 m/s"}, outlet: {type: pressure, pressure: "0 Pa"}}
+numerics: {spacing: "0.4 mm", duration: "1 ms"}
+)";
+    EXPECT_THROW(build_scene(deck::parse_case(text)), Error);
+}
+
+TEST(Flow, an_outlet_that_starves_is_reported) {
+    // The inlet draws out a hundred times what its pressure opening can follow with: the blood is torn apart.
+    ChannelDeck deck;
+    deck.inlet = "{type: velocity, profile: plug, velocity: \"-30 m/s\"}";
+    deck.initial = "{velocity: rest}";
+    deck.numerics = "reference_speed: \"0.2 m/s\", sound_speed: \"2 m/s\"";
+    const auto scene = built(deck);
+    EXPECT_THROW(advance(*scene, {.until = 0.01}), DivergedError);
+}
+
+TEST(Build, the_papers_scheme_runs_the_same_deck) {
+    ChannelDeck deck;
+    deck.numerics = "scheme: paper";
+    const auto scene = built(deck);
+    advance(*scene, {.until = 5e-3});
+    // The paper's errors at this spacing are 6 % (docs/THEORY.md, 11); it runs the same flow.
+    EXPECT_LT(profile_error(*scene), 0.1);
+}
+
 TEST(Build, openings_must_be_the_shapes) {
     ChannelDeck deck;
     std::string text = deck.text();

@@ -16,7 +16,6 @@
 #include "patency/stages/build.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/flow_recorder.h"
-#include "patency/stages/result_files.h"
 #include "patency/stages/run_flow.h"
 #include "patency/stages/scene_state.h"
 #include "tests/stages/decks.h"
@@ -169,7 +168,9 @@ TEST(RunFlow, threads_do_not_change_the_summary) {
     std::string first;
     for (const int threads : {1, 2, 3, 4}) {
         omp_set_num_threads(threads);
-        EXPECT_EQ(run_flow(parsed(deck), {.out = folder.path}), Outcome::done);
+        const OutputFolder out(folder.path);
+        out.clear();
+        EXPECT_EQ(run_flow(parsed(deck), {.folder = out}), Outcome::done);
         const std::string text = text_of(folder.path / "summary.json");
         EXPECT_FALSE(text.empty());
         if (first.empty()) first = text;
@@ -182,7 +183,7 @@ TEST(RunFlow, keeps_the_contract_of_its_files) {
     Folder folder;
     ChannelDeck deck;
     deck.duration = "2 ms";
-    run_flow(parsed(deck), {.out = folder.path});
+    run_flow(parsed(deck), {.folder = OutputFolder(folder.path)});
     const auto summary = nlohmann::json::parse(text_of(folder.path / "summary.json"));
     for (const char* key : {"pressure_datum", "gauge_pressure_ratio", "mass_imbalance_percent", "acoustic_steps", "scheme"})
         EXPECT_TRUE(summary.contains(key)) << key;
@@ -194,23 +195,102 @@ TEST(RunFlow, keeps_the_contract_of_its_files) {
     for (const char* key : {"fluid", "wall", "across_narrowest"}) EXPECT_TRUE(summary["particles"].contains(key)) << key;
     const auto timing = nlohmann::json::parse(text_of(folder.path / "timing.json"));
     EXPECT_TRUE(timing["flow"].contains("cpu_s") && timing["flow"].contains("wall_s"));
+    for (const char* name : {"fluid.pvd", "frames/fluid_000000.vtp", "checkpoint/flow.h5", "waveforms.csv"})
+        EXPECT_TRUE(fs::exists(folder.path / name)) << name;
     // The resolved deck is the case again.
-    deck::Case again = deck::read_case(folder.path / "case.resolved.yaml");
-    EXPECT_EQ(again, parsed(deck));
+    EXPECT_EQ(deck::read_case(folder.path / "case.resolved.yaml"), parsed(deck));
+}
+
+/// A deck whose results have everything that a resumed run must go on with.
+ChannelDeck busy_deck() {
+    ChannelDeck deck;
+    deck.duration = "3 ms";
+    deck.outlet = "{type: rcr, proximal_resistance: \"1e6 Pa s/m^3\", distal_resistance: \"1e7 Pa s/m^3\", compliance: \"1e-9 m^3/Pa\"}";
+    deck.more = R"(output:
+  interval: "0.7 ms"
+  average_from: "1 ms"
+  probes: [{name: middle, point: ["2 mm", "0.5 mm", "0 mm"]}]
+  profiles: [{name: middle, from: ["2 mm", "0 mm", "0 mm"], to: ["2 mm", "1 mm", "0 mm"], points: 5, times: ["0.5 ms", "2.5 ms"]}]
+)";
+    return deck;
+}
+
+const std::vector<std::string> compared_files{"summary.json", "waveforms.csv", "probes.csv", "profile_middle.csv", "fluid.pvd",
+                                              "frames/fluid_000000.vtp", "frames/fluid_000003.vtp", "frames/fluid_000005.vtp"};
+
+TEST(RunFlow, an_interrupted_run_goes_on_to_the_same_bytes) {
+    Folder folder;
+    const deck::Case config = parsed(busy_deck());
+    std::map<std::string, std::string> whole;
+    {
+        const OutputFolder out(folder.path);
+        run_flow(config, {.folder = out});
+        for (const std::string& name : compared_files) {
+            whole[name] = text_of(folder.path / name);
+            EXPECT_FALSE(whole[name].empty()) << name;
+        }
+        out.clear();
+    }
+    const OutputFolder out(folder.path);
+    int steps = 0;
+    while (run_flow(config, {.folder = out, .interrupted = [&] { return ++steps % 4 == 0; }}) == Outcome::interrupted)
+        EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
+    EXPECT_GT(steps, 8);   // it was interrupted more than once
+    for (const std::string& name : compared_files) EXPECT_EQ(text_of(folder.path / name), whole[name]) << name;
+    // Again from the end: the same summary, nothing computed.
+    run_flow(config, {.folder = out});
+    EXPECT_EQ(text_of(folder.path / "summary.json"), whole["summary.json"]);
+}
+
+TEST(RunFlow, what_was_written_after_the_checkpoint_is_dropped) {
+    Folder folder;
+    const deck::Case config = parsed(busy_deck());
+    const OutputFolder out(folder.path);
+    // Checkpoints at every step, of which an early one is put back: as if the rest of the run had been killed.
+    int steps = 0;
+    const FlowStage early{.folder = out, .interrupted = [&] { return ++steps == 5; }};
+    EXPECT_EQ(run_flow(config, early), Outcome::interrupted);
+    const std::string checkpoint = text_of(folder.path / "checkpoint/flow.h5");
+    run_flow(config, {.folder = out});
+    std::map<std::string, std::string> whole;
+    for (const std::string& name : compared_files) whole[name] = text_of(folder.path / name);
+    std::ofstream(folder.path / "checkpoint/flow.h5", std::ios::binary) << checkpoint;
+    run_flow(config, {.folder = out});
+    for (const std::string& name : compared_files) EXPECT_EQ(text_of(folder.path / name), whole[name]) << name;
+}
+
+TEST(RunFlow, a_checkpoint_of_another_deck_is_refused) {
+    Folder folder;
+    const OutputFolder out(folder.path);
+    ChannelDeck deck;
+    deck.duration = "1 ms";
+    run_flow(parsed(deck), {.folder = out});
+    deck.duration = "2 ms";
+    EXPECT_THROW(run_flow(parsed(deck), {.folder = out}), CheckpointError);
+    EXPECT_THROW(run_flow(parsed(ChannelDeck{.duration = "1 ms"}), {.folder = out, .binary_hash = "another"}), CheckpointError);
 }
 
 TEST(RunFlow, an_interrupted_run_leaves_no_summary) {
     Folder folder;
-    EXPECT_EQ(run_flow(parsed({}), {.out = folder.path, .interrupted = [] { return true; }}), Outcome::interrupted);
+    EXPECT_EQ(run_flow(parsed({}), {.folder = OutputFolder(folder.path), .interrupted = [] { return true; }}), Outcome::interrupted);
+    EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
+    EXPECT_TRUE(fs::exists(folder.path / "checkpoint/flow.h5"));
+}
+
+TEST(RunFlow, a_flow_that_diverges_leaves_its_offenders) {
+    Folder folder;
+    ChannelDeck deck;
+    deck.numerics = "reference_speed: \"1 mm/s\", sound_speed: \"2 m/s\"";
+    EXPECT_THROW(run_flow(parsed(deck), {.folder = OutputFolder(folder.path)}), DivergedError);
+    EXPECT_TRUE(fs::exists(folder.path / "offenders.vtp"));
     EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
 }
 
-TEST(RunFlow, a_folder_of_somebody_else_is_refused) {
+TEST(RunFlow, fields_that_the_blood_has_not_are_refused) {
     Folder folder;
-    fs::create_directories(folder.path);
-    std::ofstream(folder.path / "thesis.txt") << "all of it";
-    EXPECT_THROW(run_flow(parsed({}), {.out = folder.path}), FileError);
-    EXPECT_EQ(text_of(folder.path / "thesis.txt"), "all of it");
+    ChannelDeck deck;
+    deck.more = "output: {fields: [velocity, colour]}\n";
+    EXPECT_THROW(run_flow(parsed(deck), {.folder = OutputFolder(folder.path)}), DeckError);
 }
 
 }  // namespace

@@ -121,6 +121,9 @@ void compute_initial_state(Scene& scene) {
     FluidParticles& fluid = scene.fluid;
     const VectorField velocity = velocity_field(scene);
     const PressureField pressure = pressure_field(scene);
+    // The paper's scheme sums densities: its particles must weigh what their pressure says.
+    const bool is_summed = scene.config.numerics.scheme == deck::SchemeName::paper;
+    const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const Vec3& x = fluid.position[i];
         fluid.velocity[i] = velocity(x);
@@ -128,6 +131,7 @@ void compute_initial_state(Scene& scene) {
         fluid.pressure_gradient[i] = pressure.gradient(x);
         fluid.pressure_rate[i] = 0;
         fluid.viscosity[i] = scene.material.viscosity;
+        if (is_summed) fluid.volume[i] *= 1 + fluid.pressure[i] / stiffness;
     }
 }
 

@@ -7,21 +7,31 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "patency/base/errors.h"
+#include "patency/base/text.h"
 #include "patency/config/deck.h"
+#include "patency/io/csv.h"
+#include "patency/io/pvd.h"
+#include "patency/io/summary.h"
+#include "patency/io/vtp.h"
 #include "patency/stages/build.h"
 #include "patency/stages/flow.h"
+#include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_recorder.h"
-#include "patency/stages/result_files.h"
 
 namespace patency {
 
 namespace {
+
+constexpr std::size_t most_offenders = 1000;   // of a run that diverged: enough to see where
 
 /// Wall and processor time since it was made.
 class Stopwatch {
@@ -46,59 +56,171 @@ std::string machine_name() {
     return name;
 }
 
-nlohmann::ordered_json make_timing(const Stopwatch& build, double build_wall, double build_cpu, const Scene& scene) {
-    const double wall = build.wall() - build_wall, cpu = build.cpu() - build_cpu;
-    return {{"build", {{"cpu_s", build_cpu}, {"wall_s", build_wall}}},
-            {"flow",
-             {{"cpu_s", cpu},
-              {"wall_s", wall},
-              {"particle_steps_per_cpu_s", cpu > 0 ? double(scene.fluid.size()) * double(scene.acoustic_steps) / cpu : 0.0}}},
-            {"threads", omp_get_max_threads()},
-            {"machine", machine_name()},
-            {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-}
+/// One flow stage from its folder's state to its end.
+class FlowJob {
+public:
+    FlowJob(const deck::Case& config, const FlowStage& stage)
+        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("flow")) {
+        prepare();
+        expect_fields();
+        say(fmt::format("{} particles of blood, {} of wall, sound speed {:.4g} m/s", scene_->fluid.size(), scene_->wall.size(),
+                        scene_->material.sound_speed));
+        build_wall_ = watch_.wall(), build_cpu_ = watch_.cpu();
+        steps_before_ = scene_->acoustic_steps;
+    }
 
-void describe(const Scene& scene, const FlowStage& stage) {
-    if (!stage.say) return;
-    stage.say(fmt::format("{} particles of blood, {} of wall; density spread {:.2g} %", scene.fluid.size(), scene.wall.size(),
-                          100 * scene.relax_quality.density_spread));
-    stage.say(fmt::format("largest expected speed {:.4g} m/s, sound speed {:.4g} m/s", scene.numerics.reference_speed, scene.material.sound_speed));
-}
+    Outcome run() {
+        try {
+            return advance_to_end();
+        } catch (const DivergedError& error) {
+            throw DivergedError(fmt::format("{}{}", error.what(), describe_remains()));
+        }
+    }
+
+private:
+    void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
+
+    void prepare() {
+        std::optional<CheckpointReader> reader;
+        if (stage_.folder.has_checkpoint("flow")) {
+            reader.emplace(checkpoint_);
+            reader->expect_origin(origin_);
+            scene_ = read_scene(*reader, config_);
+            say(fmt::format("goes on at {:.6g} s", scene_->time));
+        } else {
+            deck::write_case(config_, stage_.folder.file("case.resolved.yaml"));
+            scene_ = build_scene(config_);
+        }
+        recorder_.emplace(*scene_);
+        if (reader) read_recorder(*reader, *recorder_);
+
+        const double now = scene_->time;
+        for (const RecordedTable& table : recorder_->tables()) {
+            const auto path = stage_.folder.file(table.name + ".csv");
+            tables_.push_back(reader ? CsvWriter::resumed(path, table.columns, now) : CsvWriter(path, table.columns));
+        }
+        recorder_->write_row = [this](std::size_t table, std::span<const double> values) { tables_.at(table).write_row(values); };
+        const auto series = stage_.folder.file("fluid.pvd");
+        frames_.emplace(reader ? PvdWriter::resumed(series, now) : PvdWriter(series));
+        is_resumed_ = reader.has_value();
+    }
+
+    void expect_fields() const {
+        for (const std::string& name : config_.output.fields)
+            if (!scene_->fluid.find(name)) {
+                std::vector<std::string> known;
+                for (const FieldBase* field : scene_->fluid.fields()) known.push_back(field->name());
+                throw DeckError(fmt::format("output.fields: the blood has no field '{}'; it has {}", name, join(known, ", ", " and ")));
+            }
+    }
+
+    Outcome advance_to_end() {
+        if (!is_resumed_ && config_.output.interval) write_frame();
+        FlowRun run{.until = config_.numerics.duration, .interrupted = stage_.interrupted, .exact_times = exact_times()};
+        run.observe = [this](const Scene&, const FlowStep&) { observe(); };
+        advance(*scene_, run);
+        write_checkpoint();
+        if (scene_->time < run.until) {
+            say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", scene_->time));
+            return Outcome::interrupted;
+        }
+        if (stage_.progress) stage_.progress->finish(progress());
+        write_summary(stage_.folder.file("summary.json"), make_summary(*scene_, recorder_->window(*scene_)));
+        write_summary(stage_.folder.file("timing.json"), make_timing());
+        say(fmt::format("done: {} acoustic steps in {:.1f} s", scene_->acoustic_steps - steps_before_, watch_.wall() - build_wall_));
+        return Outcome::done;
+    }
+
+    std::vector<double> exact_times() const {
+        std::vector<double> times = recorder_->exact_times();
+        if (config_.output.interval)
+            for (double n = 1; n * *config_.output.interval < config_.numerics.duration; ++n) times.push_back(n * *config_.output.interval);
+        std::sort(times.begin(), times.end());
+        return times;
+    }
+
+    void observe() {
+        recorder_->observe(*scene_);
+        const bool is_end = scene_->time >= config_.numerics.duration;
+        const auto& interval = config_.output.interval;
+        if (is_end || (interval && scene_->time >= double(frames_->size()) * *interval)) write_frame();
+        // Checkpoints lie between steps and clip none: when they are written changes no bit.
+        const auto& every = config_.output.checkpoint_interval;
+        const double age = watch_.wall() - last_checkpoint_wall_;
+        const bool is_due = every ? std::floor(scene_->time / *every) > std::floor(last_checkpoint_ / *every) : age > stage_.wall_between_checkpoints;
+        if (is_due && !is_end) write_checkpoint();
+        if (stage_.progress) stage_.progress->update(progress());
+    }
+
+    void write_frame() {
+        const auto file = frame_file("fluid", frames_->size());
+        write_particles(stage_.folder.file(file.string()), scene_->fluid,
+                        {.time = scene_->time, .fields = config_.output.fields, .pressure_level = scene_->reference_pressure});
+        frames_->add(scene_->time, file);
+    }
+
+    void write_checkpoint() {
+        write_flow_checkpoint(checkpoint_, origin_, *scene_, *recorder_);
+        last_checkpoint_ = scene_->time;
+        last_checkpoint_wall_ = watch_.wall();
+    }
+
+    ProgressState progress() const {
+        double out = 0;
+        for (const OpenEnd& end : scene_->ends) out += end.flow;
+        return {.stage = "flow", .fraction = scene_->time / config_.numerics.duration, .time = scene_->time, .step = scene_->acoustic_steps,
+                .net_inflow = -out};
+    }
+
+    nlohmann::ordered_json make_timing() const {
+        const double wall = watch_.wall() - build_wall_, cpu = watch_.cpu() - build_cpu_;
+        const double steps = double(scene_->acoustic_steps - steps_before_);
+        return {{"build", {{"cpu_s", build_cpu_}, {"wall_s", build_wall_}}},
+                {"flow", {{"cpu_s", cpu}, {"wall_s", wall}, {"particle_steps_per_cpu_s", cpu > 0 ? double(scene_->fluid.size()) * steps / cpu : 0.0}}},
+                {"resumed", is_resumed_},
+                {"threads", omp_get_max_threads()},
+                {"machine", machine_name()},
+                {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+    }
+
+    /// Writes the fastest particles, those without numbers first, and says what can be looked at.
+    std::string describe_remains() const {
+        const FluidParticles& fluid = scene_->fluid;
+        std::vector<double> badness(fluid.size());
+        for (std::size_t i = 0; i < fluid.size(); ++i) {
+            const double all = norm(fluid.velocity[i]) + 0 * (fluid.pressure[i] + norm(fluid.position[i]));
+            badness[i] = std::isfinite(all) ? all : INFINITY;
+        }
+        std::vector<std::uint32_t> worst(fluid.size());
+        std::iota(worst.begin(), worst.end(), 0u);
+        const std::size_t count = std::min(most_offenders, worst.size());
+        std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return badness[a] != badness[b] ? badness[a] > badness[b] : a < b;
+        });
+        worst.resize(count);
+        const auto path = stage_.folder.file("offenders.vtp");
+        write_particles(path, fluid, {.time = scene_->time, .only = worst, .pressure_level = scene_->reference_pressure, .non_finite = NonFinite::allow});
+        return fmt::format("; at {:.6g} s. The fastest particles are in {}{}", scene_->time, path.string(),
+                           stage_.folder.has_checkpoint("flow") ? ", the last good checkpoint is kept" : "");
+    }
+
+    const deck::Case& config_;
+    const FlowStage& stage_;
+    CheckpointOrigin origin_;
+    std::filesystem::path checkpoint_;
+    Stopwatch watch_;
+    std::unique_ptr<Scene> scene_;
+    std::optional<FlowRecorder> recorder_;
+    std::vector<CsvWriter> tables_;
+    std::optional<PvdWriter> frames_;
+    bool is_resumed_ = false;
+    double build_wall_ = 0, build_cpu_ = 0;
+    std::int64_t steps_before_ = 0;
+    double last_checkpoint_ = 0, last_checkpoint_wall_ = 0;
+};
 
 }  // namespace
 
-Outcome run_flow(const deck::Case& config, const FlowStage& stage) {
-    const Stopwatch watch;
-    open_result_folder(stage.out);
-    // Results of an earlier run would be taken for this one's if it ended early.
-    std::filesystem::remove(stage.out / "summary.json");
-    deck::write_case(config, stage.out / "case.resolved.yaml");
-    const auto scene = build_scene(config);
-    FlowRecorder recorder(*scene);
-    const double build_wall = watch.wall(), build_cpu = watch.cpu();
-    describe(*scene, stage);
-
-    std::vector<TableFile> files;
-    for (const RecordedTable& table : recorder.tables()) files.emplace_back(stage.out / (table.name + ".csv"), table.columns);
-    recorder.write_row = [&](std::size_t table, std::span<const double> values) { files.at(table).write_row(values); };
-
-    FlowRun run{.until = config.numerics.duration, .interrupted = stage.interrupted, .exact_times = recorder.exact_times()};
-    run.observe = [&](const Scene& now, const FlowStep&) {
-        recorder.observe(now);
-        if (!stage.show) return;
-        double out = 0;
-        for (const OpenEnd& end : now.ends) out += end.flow;
-        stage.show({now.time, run.until, now.acoustic_steps, -out, watch.wall()});
-    };
-    advance(*scene, run);
-    if (scene->time < run.until) {
-        if (stage.say) stage.say(fmt::format("interrupted at {:.6g} s", scene->time));
-        return Outcome::interrupted;
-    }
-    write_text_file(stage.out / "summary.json", make_summary(*scene, recorder.window(*scene)).dump(2) + "\n");
-    write_text_file(stage.out / "timing.json", make_timing(watch, build_wall, build_cpu, *scene).dump(2) + "\n");
-    if (stage.say) stage.say(fmt::format("done: {} acoustic steps in {:.1f} s", scene->acoustic_steps, watch.wall() - build_wall));
-    return Outcome::done;
-}
+Outcome run_flow(const deck::Case& config, const FlowStage& stage) { return FlowJob(config, stage).run(); }
 
 }  // namespace patency

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/flow_checkpoint.h"
+
+#include "patency/config/deck.h"
+#include "patency/io/hash.h"
+#include "patency/stages/build.h"
+#include "patency/stages/flow.h"
+#include "patency/stages/scene_state.h"
+
+namespace patency {
+
+namespace {
+
+void write_mark(CheckpointWriter& writer, const std::string& name, const FlowMark& mark) {
+    writer.write(name + "/time", mark.time);
+    writer.write(name + "/volume_out", mark.volume_out);
+    writer.write(name + "/pressure_time", mark.pressure_time);
+    writer.write(name + "/compressed", mark.compressed);
+    writer.write(name + "/inside", mark.inside);
+}
+
+FlowMark read_mark(const CheckpointReader& reader, const std::string& name) {
+    return {.time = reader.read<double>(name + "/time"),
+            .volume_out = reader.read<std::vector<double>>(name + "/volume_out"),
+            .pressure_time = reader.read<std::vector<double>>(name + "/pressure_time"),
+            .compressed = reader.read<double>(name + "/compressed"),
+            .inside = reader.read<std::int64_t>(name + "/inside")};
+}
+
+}  // namespace
+
+CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_hash) {
+    deck::Case alike = config;
+    alike.numerics.threads = 0;
+    CheckpointOrigin origin{.deck_hash = hex_text(hash_bytes(deck::format_case(alike))), .binary_hash = binary_hash, .input_hashes = {}};
+    for (const auto& [name, opening] : config.openings)
+        if (opening.waveform && opening.waveform->file)
+            origin.input_hashes[opening.waveform->file->filename().string()] = hex_text(hash_file(*opening.waveform->file));
+    return origin;
+}
+
+void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin, const Scene& scene,
+                           const FlowRecorder& recorder) {
+    CheckpointWriter writer(path, origin);
+    writer.write(scene.fluid, "fluid");
+    writer.write(scene.wall, "wall");
+    const NamedNumbers numbers = numbers_of(scene);
+    for (const auto& [name, values] : numbers.reals) writer.write("scene/" + name, values);
+    for (const auto& [name, values] : numbers.integers) writer.write("scene/" + name, values);
+    const FlowRecorder::State state = recorder.state();
+    writer.write("recorder/last_row", state.last_row);
+    write_mark(writer, "recorder/row", state.row_mark);
+    writer.write("recorder/has_window", std::int64_t(state.window.has_value()));
+    if (state.window) write_mark(writer, "recorder/window", *state.window);
+    writer.finish();
+}
+
+std::unique_ptr<Scene> read_scene(const CheckpointReader& checkpoint, const deck::Case& config) {
+    auto scene = build_frame(config);
+    checkpoint.read(scene->fluid, "fluid");
+    checkpoint.read(scene->wall, "wall");
+    NamedNumbers numbers = numbers_of(*scene);   // for the names
+    for (auto& [name, values] : numbers.reals) values = checkpoint.read<std::vector<double>>("scene/" + name);
+    for (auto& [name, values] : numbers.integers) values = checkpoint.read<std::vector<std::int64_t>>("scene/" + name);
+    restore_numbers(*scene, numbers);
+    start_scheme(*scene);
+    return scene;
+}
+
+void read_recorder(const CheckpointReader& checkpoint, FlowRecorder& recorder) {
+    FlowRecorder::State state{.last_row = checkpoint.read<double>("recorder/last_row"), .row_mark = read_mark(checkpoint, "recorder/row"), .window = {}};
+    if (checkpoint.read<std::int64_t>("recorder/has_window") != 0) state.window = read_mark(checkpoint, "recorder/window");
+    recorder.restore(state);
+}
+
+}  // namespace patency
