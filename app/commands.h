@@ -15,5 +15,6 @@ void add_version_command(CLI::App& program, ExitCode& exit_code);
 void add_schema_command(CLI::App& program, ExitCode& exit_code);
 void add_check_command(CLI::App& program, ExitCode& exit_code);
 void add_flow_command(CLI::App& program, ExitCode& exit_code);
+void add_verify_command(CLI::App& program, ExitCode& exit_code);
 
 }  // namespace patency::app

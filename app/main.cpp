@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
     program.require_subcommand(1);
     app::add_check_command(program, exit_code);
     app::add_flow_command(program, exit_code);
+    app::add_verify_command(program, exit_code);
     app::add_schema_command(program, exit_code);
     app::add_version_command(program, exit_code);
     try {

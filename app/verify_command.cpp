@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// `patency verify`: cases with known answers, their figures against bars.
+#include <fmt/format.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+
+#include "commands.h"
+#include "patency/base/errors.h"
+#include "patency/verify/kept_text.h"
+#include "patency/verify/runner.h"
+
+namespace patency::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+volatile std::sig_atomic_t stop_signal = 0;
+void remember_signal(int signal) { stop_signal = signal; }
+
+/// The folder of the decks: the one asked for, else beside where we stand, else in the source tree.
+fs::path find_decks(const std::string& wanted) {
+    if (!wanted.empty()) return wanted;
+    if (fs::exists("cases/verify")) return "cases/verify";
+    return fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
+}
+
+/// A line per run, rewritten on a terminal.
+class Screen {
+public:
+    void show(const VerifyProgress& p) {
+        const auto now = std::chrono::steady_clock::now();
+        const bool is_terminal = isatty(STDERR_FILENO);
+        if (p.done) {
+            const std::string how = !p.done->failure.empty() ? "FAILED: " + p.done->failure
+                                    : p.is_reused            ? "done before"
+                                                             : fmt::format("{} steps, {:.1f} s ({:.1f} CPU s)", p.done->acoustic_steps, p.done->wall_s, p.done->cpu_s);
+            fmt::print(stderr, "{}{:<42} {:>9} particles  {}\n", is_terminal ? "\r\033[K" : "", p.case_name + " " + p.run_name, p.done->particles, how);
+        } else if (is_terminal && now - last_ > std::chrono::milliseconds(300)) {
+            fmt::print(stderr, "\r\033[K{:<42} {:>5.1f} %", p.case_name + " " + p.run_name, 100 * p.share);
+            std::fflush(stderr);
+            last_ = now;
+        }
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_{};
+};
+
+void print_report(const CaseReport& report) {
+    fmt::print("{} ({}, {} particles)\n", report.name, word_of(report.level), report.particles);
+    for (const Figure& f : report.figures) {
+        const std::string bar = f.bar ? fmt::format("{} {:g} {}", word_of(f.bar->sense), f.bar->limit, f.passes() ? "" : "MISSED") : "";
+        fmt::print("  {:<48} {:>12} {:<8} {}\n", f.key, f.value ? fmt::format("{:.5g}", *f.value) : "none", f.unit, bar);
+        if (!f.value) fmt::print("    {}\n", f.reason);
+    }
+}
+
+struct Options {
+    std::vector<std::string> names, settings;
+    std::string level = "quick", out = "verification", decks, reference, report;
+    int threads = 0;
+    bool is_listing = false, fresh = false;
+};
+
+ExitCode run(const Options& o) {
+    if (o.is_listing) {
+        for (const VerifyCase& c : verification_cases()) fmt::print("{:<22} {:<6} {}\n", c.name, word_of(c.level), c.title);
+        return ExitCode::ok;
+    }
+    if (!o.report.empty()) {
+        write_verification_report(o.out, o.report);
+        return ExitCode::ok;
+    }
+    if (o.threads > 0) omp_set_num_threads(o.threads);
+    std::signal(SIGINT, remember_signal);
+    std::signal(SIGTERM, remember_signal);
+    const fs::path decks = find_decks(o.decks);
+    Screen screen;
+    VerifyRequest request{.names = o.names, .level = o.level == "full" ? Level::full : Level::quick, .out = o.out, .decks = decks,
+                          .reference = o.reference.empty() ? decks / "../../../shared/data/reference" : fs::path(o.reference),
+                          .program = fingerprint(read_result("/proc/self/exe")), .settings = o.settings, .fresh = o.fresh};
+    request.report = [&](const VerifyProgress& p) { screen.show(p); };
+    request.interrupted = [] { return stop_signal != 0; };
+    bool all_pass = true;
+    try {
+        for (const CaseReport& report : run_verification(request)) {
+            print_report(report);
+            all_pass = all_pass && report.passes();
+        }
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::interrupted || stop_signal != SIGTERM) throw;
+        throw Error(ExitCode::terminated, error.what());
+    }
+    return all_pass ? ExitCode::ok : ExitCode::bar_missed;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& program, ExitCode& exit_code) {
+    CLI::App* command = program.add_subcommand("verify", "Run cases with known answers and hold their figures against bars");
+    const auto o = std::make_shared<Options>();
+    command->add_option("names", o->names, "Cases; all of the level if none is named");
+    command->add_option("--level", o->level, "quick: eight minutes on two cores; full: everything")->check(CLI::IsMember({"quick", "full"}))->capture_default_str();
+    command->add_option("-o,--out", o->out, "Folder of the results; runs that are done are kept there and not done again")->capture_default_str();
+    command->add_option("--threads", o->threads, "Threads; all cores if not given")->check(CLI::NonNegativeNumber);
+    command->add_option("--set", o->settings, "KEY=VALUE over every deck")->take_all();
+    command->add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
+    command->add_option("--reference", o->reference, "Folder of stored results of other programs");
+    command->add_option("--report", o->report, "Write the document of the results in the folder, and run nothing");
+    command->add_flag("--fresh", o->fresh, "Do all runs again");
+    command->add_flag("--list", o->is_listing, "List the cases");
+    command->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace patency::app
