@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `patency verify`: cases with known answers, their figures against bars.
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
 #include <unistd.h>

@@ -2,7 +2,6 @@
 #include "patency/verify/runner.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include "patency/config/deck.h"
 #include "patency/stages/build.h"
 #include "patency/stages/result_files.h"
+#include "patency/verify/cpu_time.h"
 #include "patency/verify/kept_text.h"
 
 namespace patency {
@@ -21,13 +21,6 @@ namespace patency {
 namespace {
 
 namespace fs = std::filesystem;
-
-double cpu_seconds() {   // user and system, of all threads
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 std::vector<const VerifyCase*> choose_cases(const VerifyRequest& request) {
     std::vector<std::string> known;

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/verify/bench_flow.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "patency/base/errors.h"
+#include "patency/stages/build.h"
+#include "patency/stages/initial_state.h"
+#include "patency/verify/cpu_time.h"
+
+namespace patency {
+
+namespace {
+
+struct Setup {
+    int across;                   // particles over the diameter
+    double length;                // in diameters
+    deck::Precision precision;
+    LoopKind loop = LoopKind::packed;
+};
+
+constexpr double diameter = 4e-3;   // m, a coronary artery
+
+deck::Case make_case(const Setup& setup) {
+    deck::Case c;
+    c.about.name = "bench";
+    deck::Shape shape;
+    shape.type = deck::ShapeType::tube;
+    shape.diameter = diameter;
+    shape.length = setup.length * diameter;
+    c.geometry.shape = shape;
+    c.blood.density = 1060;
+    c.blood.viscosity = 3.5e-3;
+    const double mean = 100 * c.blood.viscosity / (c.blood.density * diameter);   // Re 100
+    deck::Opening inlet, outlet;
+    inlet.type = deck::OpeningType::velocity;
+    inlet.profile = deck::VelocityProfile::parabola;
+    inlet.velocity = mean;
+    outlet.type = deck::OpeningType::pressure;
+    outlet.pressure = 0;
+    c.openings = {{"inlet", inlet}, {"outlet", outlet}};
+    c.initial = {deck::InitialVelocity::parabola, mean, deck::InitialPressure::linear};
+    c.numerics.spacing = diameter / setup.across;
+    c.numerics.sound_speed_factor = 10;
+    c.numerics.reference_speed = 2 * mean;
+    c.numerics.precision = setup.precision;
+    c.numerics.duration = 1;
+    return c;
+}
+
+/// Particles on rings around the axis: as even as a relaxed lattice where it matters for speed, and there at once.
+std::unique_ptr<Scene> make_pipe(const Setup& setup) {
+    auto scene = build_frame(make_case(setup));
+    scene->numerics.loop = setup.loop;
+    const double dp = scene->numerics.spacing, radius = 0.5 * diameter, length = setup.length * diameter;
+    const int layers = int(std::lround(length / dp)), buffer = int(buffer_spacings), beyond = buffer + 3;   // + the kernel's support
+    const double wall_end = radius + 3.2 * dp;
+    struct Point {
+        Vec3 x;
+        double depth;
+        std::int32_t opening;
+    };
+    std::vector<Point> fluid, wall;
+    for (int i = -beyond; i < layers + beyond; ++i)
+        for (int k = 0; (k + 0.5) * dp < wall_end; ++k) {
+            const double r = (k + 0.5) * dp, x = (i + 0.5) * dp;
+            const int count = std::max(1, int(std::lround(2 * std::numbers::pi * r / dp)));
+            const double turn = 2.399963 * (i + beyond) + 1.7 * k;   // golden angle: layers and rings do not line up
+            for (int a = 0; a < count; ++a) {
+                const double angle = turn + 2 * std::numbers::pi * a / count;
+                const Point p{{x, r * std::cos(angle), r * std::sin(angle)}, r - radius, i < 0 ? 1 : i >= layers ? 2 : 0};
+                if (r > radius) wall.push_back(p);
+                else if (i >= -buffer && i < layers + buffer) fluid.push_back(p);
+            }
+        }
+    const double volume = dp * dp * dp;
+    scene->fluid.resize(fluid.size());
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        scene->fluid.position[i] = fluid[i].x;
+        scene->fluid.opening[i] = fluid[i].opening;
+        scene->fluid.volume[i] = volume;
+    }
+    scene->wall.resize(wall.size());
+    for (std::size_t i = 0; i < wall.size(); ++i) {
+        const Vec3& x = wall[i].x;
+        const double r = std::hypot(x.y, x.z);
+        scene->wall.position[i] = x;
+        scene->wall.normal[i] = {0, x.y / r, x.z / r};
+        scene->wall.depth[i] = wall[i].depth;
+        scene->wall.curvature[i] = 1 / radius;
+        scene->wall.volume[i] = volume;
+    }
+    for (OpenEnd& end : scene->ends) end.buffer_length = buffer * dp;
+    compute_initial_state(*scene);
+    start_scheme(*scene);
+    return scene;
+}
+
+struct Measured {
+    double particle_steps = 0, cpu_s = 0, wall_s = 0;
+    std::int64_t particles = 0;
+
+    double per_cpu_s() const { return particle_steps / cpu_s; }
+    double per_s() const { return particle_steps / wall_s; }
+};
+
+/// Two steps to fill caches and arrays, then `steps` advection steps under the clock.
+Measured measure(Scene& scene, int steps) {
+    const auto step = [&] {
+        const FlowStep done = scene.scheme->step(scene.time, 1);
+        scene.time += done.dt;
+        return done.acoustic_steps;
+    };
+    step(), step();
+    Measured result{.particles = std::int64_t(scene.fluid.size())};
+    const double cpu = cpu_seconds();
+    const auto start = std::chrono::steady_clock::now();
+    for (int k = 0; k < steps; ++k) {
+        const double count = double(scene.fluid.size());
+        result.particle_steps += count * step();
+    }
+    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.cpu_s = cpu_seconds() - cpu;
+    return result;
+}
+
+double answer_error(const Scene& a, const Scene& b) {
+    if (a.fluid.size() != b.fluid.size()) return 1;
+    double velocity = 0, position = 0, speed = 0, extent = 0;
+    for (std::size_t i = 0; i < a.fluid.size(); ++i) {
+        velocity = std::max(velocity, norm(a.fluid.velocity[i] - b.fluid.velocity[i]));
+        position = std::max(position, norm(a.fluid.position[i] - b.fluid.position[i]));
+        speed = std::max(speed, norm(b.fluid.velocity[i]));
+        extent = std::max(extent, norm(b.fluid.position[i]));
+    }
+    return std::max(velocity / speed, position / extent);
+}
+
+int steps_for(double particles, const BenchRequest& request) {   // about ten million particle-steps, six acoustic in each
+    return std::max(2, int(std::lround(request.effort * 1e7 / (6 * particles))));
+}
+
+constexpr const char* rate_unit = "particle-steps per CPU-second";
+
+BenchResult bench_against_reference(const std::string& name, Setup setup, const BenchRequest& request) {
+    omp_set_num_threads(request.threads);
+    const auto packed = make_pipe(setup);
+    setup.loop = LoopKind::reference;
+    const auto slow = make_pipe(setup);
+    const int steps = steps_for(double(packed->fluid.size()), request);
+    const Measured fast = measure(*packed, steps), reference = measure(*slow, steps);
+    return {name, fast.particles, request.threads, fast.per_cpu_s(), rate_unit, reference.per_cpu_s(),
+            fast.per_cpu_s() / reference.per_cpu_s(), answer_error(*packed, *slow)};
+}
+
+BenchResult bench_two_threads(const std::string& name, const Setup& setup, const BenchRequest& request) {
+    omp_set_num_threads(1);
+    const auto alone = make_pipe(setup);
+    const int steps = steps_for(double(alone->fluid.size()), request);
+    const Measured one = measure(*alone, steps);
+    omp_set_num_threads(2);
+    const auto together = make_pipe(setup);
+    const Measured two = measure(*together, steps);
+    return {name, two.particles, 2, two.per_s(), "particle-steps per second", one.per_s(), two.per_s() / one.per_s(),
+            answer_error(*together, *alone)};
+}
+
+/// Of CPU time per particle-step, large over small: 1.1 is 10 % more.
+BenchResult bench_growth(const std::string& name, const Setup& large, const Setup& small, const BenchRequest& request) {
+    omp_set_num_threads(request.threads);
+    Measured of_small, of_large;
+    {
+        const auto scene = make_pipe(small);
+        of_small = measure(*scene, steps_for(double(scene->fluid.size()), request));
+    }
+    const auto scene = make_pipe(large);
+    of_large = measure(*scene, steps_for(double(scene->fluid.size()), request));
+    const double cost = 1e9 / of_large.per_cpu_s(), before = 1e9 / of_small.per_cpu_s();
+    return {name, of_large.particles, request.threads, cost, "CPU-ns per particle-step", before, cost / before, 0};
+}
+
+}  // namespace
+
+std::vector<BenchResult> run_flow_bench(const BenchRequest& request) {
+    using Bench = std::function<BenchResult(const std::string&)>;
+    std::vector<std::pair<std::string, Bench>> benches;
+    for (const auto& [tail, precision] : {std::pair{"mixed", deck::Precision::mixed}, std::pair{"double", deck::Precision::double_}}) {
+        const std::string end = std::string("_") + tail;
+        // 7.5 diameters at D/16 are 24,000 particles; 8 at D/32 are 206,000; D/25 and D/54 make 100,000 and 1,000,000.
+        const Setup small{16, 7.5, precision}, large{32, 8, precision};
+        benches.emplace_back("pipe_d16" + end, [=, &request](const std::string& name) { return bench_against_reference(name, small, request); });
+        benches.emplace_back("pipe_d32" + end, [=, &request](const std::string& name) { return bench_against_reference(name, large, request); });
+        benches.emplace_back("two_threads" + end, [=, &request](const std::string& name) { return bench_two_threads(name, large, request); });
+        benches.emplace_back("growth" + end, [=, &request](const std::string& name) {
+            return bench_growth(name, {54, 8, precision}, {25, 8, precision}, request);
+        });
+    }
+    std::vector<BenchResult> results;
+    for (const auto& [name, bench] : benches) {
+        const bool is_wanted = request.names.empty() || std::any_of(request.names.begin(), request.names.end(), [&](const std::string& part) {
+                                   return name.find(part) != std::string::npos;
+                               });
+        if (!is_wanted) continue;
+        results.push_back(bench(name));
+        if (request.report) request.report(results.back());
+    }
+    if (results.empty()) throw UsageError("no benchmark has that name; there are pipe_d16, pipe_d32, two_threads, growth, each _mixed and _double");
+    return results;
+}
+
+std::string format_bench(const std::vector<BenchResult>& results) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const BenchResult& r : results)
+        list.push_back({{"name", r.name}, {"particles", r.particles}, {"threads", r.threads}, {"value", r.value}, {"unit", r.unit},
+                        {"reference_value", r.reference_value}, {"ratio", r.ratio}, {"answer_error", r.answer_error}});
+    return list.dump(1) + "\n";
+}
+
+}  // namespace patency
