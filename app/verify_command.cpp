@@ -11,7 +11,7 @@
 
 #include "commands.h"
 #include "patency/base/errors.h"
-#include "patency/verify/kept_text.h"
+#include "patency/io/hash.h"
 #include "patency/verify/runner.h"
 
 namespace patency::app {
@@ -84,7 +84,7 @@ ExitCode run(const Options& o) {
     Screen screen;
     VerifyRequest request{.names = o.names, .level = o.level == "full" ? Level::full : Level::quick, .out = o.out, .decks = decks,
                           .reference = o.reference.empty() ? decks / "../../../shared/data/reference" : fs::path(o.reference),
-                          .program = fingerprint(read_result("/proc/self/exe")), .settings = o.settings, .fresh = o.fresh};
+                          .program = hex_text(hash_file("/proc/self/exe")), .settings = o.settings, .fresh = o.fresh};
     request.report = [&](const VerifyProgress& p) { screen.show(p); };
     request.interrupted = [] { return stop_signal != 0; };
     bool all_pass = true;

@@ -34,7 +34,7 @@ TEST(VerificationCases, names_differ_and_decks_read) {
             bars += f.bar.has_value();
         }
         EXPECT_GT(bars, 0) << c.name;
-        if (c.pictures) EXPECT_NO_THROW(c.pictures(results)) << c.name;
+        if (c.pictures) { EXPECT_NO_THROW(c.pictures(results)) << c.name; }
     }
     EXPECT_EQ(names.size(), 9u);
 }

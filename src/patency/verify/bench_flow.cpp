@@ -12,6 +12,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/stages/build.h"
+#include "patency/stages/flow.h"
 #include "patency/stages/initial_state.h"
 #include "patency/verify/cpu_time.h"
 

@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "patency/base/errors.h"
-#include "patency/stages/result_files.h"
-#include "patency/verify/kept_text.h"
+#include "patency/io/atomic_file.h"
 #include "patency/verify/runner.h"
 
 namespace patency {
@@ -42,9 +41,9 @@ void write_verification_report(const fs::path& out, const fs::path& document) {
     for (const VerifyCase& c : verification_cases()) {
         const fs::path file = out / (c.name + ".json");
         if (!fs::exists(file)) continue;
-        const CaseReport report = parse_report(read_result(file), file.string());
+        const CaseReport report = parse_report(read_file(file), file.string());
         Json timing = Json::object();
-        if (fs::exists(out / (c.name + ".timing.json"))) timing = Json::parse(read_result(out / (c.name + ".timing.json")));
+        if (fs::exists(out / (c.name + ".timing.json"))) timing = Json::parse(read_file(out / (c.name + ".timing.json")));
         int bars = 0, met = 0;
         for (const Figure& f : report.figures)
             if (f.bar) bars += 1, met += f.passes();
@@ -53,15 +52,16 @@ void write_verification_report(const fs::path& out, const fs::path& document) {
         body += fmt::format("\n## {}\n\n{}.\n\n", c.name, c.title) + table_of(report) + runs_of(timing);
         const fs::path captions = out / "pictures" / (c.name + ".json");
         if (!fs::exists(captions)) continue;
-        const Json list = Json::parse(read_result(captions));
+        const Json list = Json::parse(read_file(captions));
         for (const Json& picture : list) {
             const std::string name = picture.at("name"), caption = picture.at("caption");
-            make_result_folder(pictures);
-            write_text_file(pictures / (name + ".svg"), read_result(out / "pictures" / (name + ".svg")));
+            std::error_code error;   // write_file says what is wrong
+            fs::create_directories(pictures, error);
+            write_file(pictures / (name + ".svg"), read_file(out / "pictures" / (name + ".svg")));
             body += fmt::format("\n![{0}](verification/{1}.svg)\n\n*{0}.*\n", caption, name);
         }
     }
-    write_text_file(document,
+    write_file(document,
                "# Verification\n\nEvery case below has a known answer. The tables are written by `patency verify --level full -o out` and\n"
                "`patency verify --report docs/VERIFICATION.md -o out`; decks are in `cases/verify/`, the closed forms in\n"
                "[THEORY](THEORY.md) section 12, the measures of error in section 13. Keys that begin with `paper_` belong to the\n"

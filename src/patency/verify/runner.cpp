@@ -11,16 +11,22 @@
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
 #include "patency/config/deck.h"
+#include "patency/io/atomic_file.h"
+#include "patency/io/hash.h"
 #include "patency/stages/build.h"
-#include "patency/stages/result_files.h"
 #include "patency/verify/cpu_time.h"
-#include "patency/verify/kept_text.h"
 
 namespace patency {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+void make_folder(const fs::path& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) throw FileError("cannot make the folder '" + path.string() + "': " + error.message());
+}
 
 std::vector<const VerifyCase*> choose_cases(const VerifyRequest& request) {
     std::vector<std::string> known;
@@ -46,7 +52,7 @@ public:
     CaseReport run() {
         std::map<std::string, RunData> runs;
         if (case_.measure) {
-            make_result_folder(folder());
+            make_folder(folder());
             const fs::path deck = request_.decks / (case_.name + ".yaml");
             for (const deck::NamedCase& run : deck::read_runs(deck, request_.settings))
                 if (request_.level == Level::full || !case_.is_full || !case_.is_full(run.name)) runs[run.name] = find_or_do(run);
@@ -67,8 +73,8 @@ public:
         case_.figures(results, figures);
         report.figures = figures.take();
         if (case_.pictures) write_pictures(case_.pictures(results));
-        write_text_file(request_.out / (case_.name + ".json"), format_report(report));
-        write_text_file(request_.out / (case_.name + ".timing.json"), timing.dump(1) + "\n");
+        write_file(request_.out / (case_.name + ".json"), format_report(report));
+        write_file(request_.out / (case_.name + ".timing.json"), timing.dump(1) + "\n");
         return report;
     }
 
@@ -76,21 +82,21 @@ private:
     fs::path folder() const { return request_.out / "runs" / case_.name; }
 
     void write_pictures(const std::vector<Picture>& pictures) const {
-        make_result_folder(request_.out / "pictures");
+        make_folder(request_.out / "pictures");
         nlohmann::ordered_json captions = nlohmann::ordered_json::array();
         for (const Picture& p : pictures) {
-            write_text_file(request_.out / "pictures" / (p.name + ".svg"), p.svg);
+            write_file(request_.out / "pictures" / (p.name + ".svg"), p.svg);
             captions.push_back({{"name", p.name}, {"caption", p.caption}});
         }
-        write_text_file(request_.out / "pictures" / (case_.name + ".json"), captions.dump(1) + "\n");
+        write_file(request_.out / "pictures" / (case_.name + ".json"), captions.dump(1) + "\n");
     }
 
     RunData find_or_do(const deck::NamedCase& named) {
-        const std::string key = fingerprint(request_.program + "\n" + deck::format_case(named.resolved));
+        const std::string key = hex_text(hash_bytes(request_.program + "\n" + deck::format_case(named.resolved)));
         const fs::path file = folder() / (named.name + ".json");
         VerifyProgress progress{case_.name, named.name};
         if (!request_.fresh && fs::exists(file))
-            if (auto kept = parse_run(read_result(file)); kept && kept->key == key) {
+            if (auto kept = parse_run(read_file(file)); kept && kept->key == key) {
                 progress.done = &*kept;
                 progress.is_reused = true;
                 if (request_.report) request_.report(progress);
@@ -98,7 +104,7 @@ private:
             }
         RunData data = do_run(named);
         data.key = key;
-        write_text_file(file, format_run(data));
+        write_file(file, format_run(data));
         progress.done = &data;
         if (request_.report) request_.report(progress);
         return data;
@@ -137,7 +143,7 @@ private:
 
 std::vector<CaseReport> run_verification(const VerifyRequest& request) {
     const auto cases = choose_cases(request);
-    make_result_folder(request.out);
+    make_folder(request.out);
     std::vector<CaseReport> reports;
     for (const VerifyCase* c : cases) reports.push_back(CaseRunner(request, *c).run());
     return reports;
