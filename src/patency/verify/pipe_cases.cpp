@@ -164,7 +164,7 @@ void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
 std::complex<double> complex_of(const RunData& run, const std::string& name) { return {run.list(name).at(0), run.list(name).at(1)}; }
 
 void womersley_figures(const Results& results, FigureList& figures) {
-    const std::vector<std::string> runs = {"alpha2.8", "alpha5"};
+    const std::vector<std::string> runs = {"alpha2_8", "alpha5"};
     const auto off = [&](const std::string& run, const std::string& name) {
         return complex_of(results[run], name) / complex_of(results[run], "exact_" + name);
     };
@@ -180,7 +180,7 @@ void womersley_figures(const Results& results, FigureList& figures) {
 
 std::vector<Picture> womersley_pictures(const Results& results) {
     std::vector<Picture> pictures;
-    for (const std::string run : {"alpha2.8", "alpha5"}) {
+    for (const std::string run : {"alpha2_8", "alpha5"}) {
         if (!results.has(run)) continue;
         const RunData& r = results[run];
         const std::complex<double> exact = complex_of(r, "exact_flow");
