@@ -59,7 +59,8 @@ TEST(CsvWriter, GoesOnFromTheCheckpointAsIfNothingHadHappened) {
 TEST(CsvWriter, ResumesWhatHasNoRows) {
     const ScratchFolder folder;
     for (std::string_view before :
-         {"", "time_s,flo", "time_s,flow_inlet_m3_per_s\n", "time_s,flow_inlet_m3_per_s\n0.5,1\n"}) {
+         {"", "time_s,flo", "time_s,flow_inlet_m3_per_s\n", "time_s,flow_inlet_m3_per_s\n0.5,1\n",
+          "time_s,flow_inlet_m3_per_s\n0.2", "time_s,flow_inlet_m3_per_s\n0.2,1"}) {
         put(folder / "t.csv", before);
         CsvWriter::resumed(folder / "t.csv", columns, 0.25).write_row({0.5, 2});
         EXPECT_EQ(contents_of(folder / "t.csv"), "time_s,flow_inlet_m3_per_s\n0.5,2\n") << before;
