@@ -16,6 +16,9 @@ constexpr double slab_half_width = 2;
 // Over how many spacings beyond the plane the imposed pressure takes over. A particle that crosses the plane is not
 // grasped at once: that would knock on the whole column of blood with every layer that passes.
 constexpr double takeover = 1;
+// A particle belongs to the buffer only this far beyond the plane: one that trembles across it would leave a copy each time
+// it comes back.
+constexpr double crossing_margin = 0.25;
 double imposed_share(double s_in_spacings) {
     const double q = std::clamp(s_in_spacings / takeover, 0.0, 1.0);
     return q * q * (3 - 2 * q);
@@ -132,7 +135,7 @@ void exchange_particles(FluidParticles& fluid, double spacing, double tail, std:
             end.crossed_volume -= fluid.volume[i];
         }
         for (const auto& m : end.inside) {
-            if (!(end.axial(fluid.position[m.index]) >= 0)) continue;
+            if (!(end.axial(fluid.position[m.index]) >= crossing_margin * spacing)) continue;
             fluid.opening[m.index] = number;
             end.crossed += 1;
             end.crossed_volume += fluid.volume[m.index];

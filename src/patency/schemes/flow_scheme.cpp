@@ -252,7 +252,11 @@ private:
                                numerics_.loop);
         for_each_index(n, [&](std::size_t i) {
             if (fluid.opening[i] < 0) return;
-            const Vec3 shift = limited(shift_[i]);
+            Vec3 shift = limited(shift_[i]);
+            if (fluid.opening[i] > 0) {   // what is pushed over a buffer's far end is lost, and nothing comes back for it
+                const Vec3& axis = domain_.ends[std::size_t(fluid.opening[i]) - 1].normal;
+                shift -= std::max(0.0, dot(shift, axis)) * axis;
+            }
             fluid.position[i] += shift;
             fluid.velocity[i] += fluid.velocity_gradient[i] * shift;
             fluid.pressure[i] += dot(fluid.pressure_gradient[i], shift);
