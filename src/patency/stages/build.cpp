@@ -81,7 +81,6 @@ void make_ends(Scene& scene) {
         scene.ends.push_back(std::move(end));
         scene.laws.push_back(std::move(law));
     }
-    choose_reference(scene.laws, scene.config.numerics.pressure_reference);
 }
 
 std::unique_ptr<Frame> make_frame(const Scene& scene) {
@@ -168,7 +167,7 @@ std::unique_ptr<Scene> build_scene(const deck::Case& config) {
     auto scene = build_frame(config);
     place_particles(*scene);
     // The level at time zero, of ends through which nothing flows yet.
-    scene->reference_pressure = impose_laws(scene->laws, scene->ends, 0, 0);
+    scene->reference_pressure = impose_laws(scene->laws, scene->ends, 0, 0, config.numerics.pressure_reference);
     for (EndLaw& law : scene->laws) law.is_started = false;
     compute_initial_state(*scene);
     start_scheme(*scene);

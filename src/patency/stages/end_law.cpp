@@ -19,6 +19,8 @@ namespace {
 // Modes of a waveform from a table in Womersley's profile: the 20th harmonic of a heart beat carries no flow.
 constexpr std::size_t womersley_modes = 20;
 
+constexpr double least_resistance = 1;   // Pa s/m^3: a billionth of any vessel's
+
 double mean_of_table(const deck::ProfileTable& table, Section section) {
     // Exact for the piecewise linear profile: integral of u(s) 2 s ds (disc) or u(s) ds (gap).
     double sum = 0;
@@ -97,7 +99,7 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
         if (said.type == deck::OpeningType::coronary)
             throw DeckError("type coronary needs the pressure of the heart muscle, which decks cannot say yet; use rcr");
         if (law.outlet && !(said.type == deck::OpeningType::resistance && said.resistance == 0)) expect_valid(*law.outlet);
-        law.state = {start, 0};
+        law.state = law.level_state = {start, 0};
         return law;
     } catch (const DeckError& error) {
         throw DeckError(fmt::format("openings.{}: {}", opening.name, error.what()));
@@ -153,23 +155,45 @@ OutletResponse response_of(const EndLaw& law, double time, double ahead) {
     return step_response(*law.outlet, law.state, {time, ahead}, law.known_flow);
 }
 
-void choose_reference(std::span<EndLaw> laws, deck::PressureReference reference) {
-    EndLaw* least = nullptr;
-    bool is_any_prescribed = false;
-    for (EndLaw& law : laws) {
-        law.is_reference = reference == deck::PressureReference::moving && law.type == deck::OpeningType::pressure;
-        is_any_prescribed |= law.is_reference;
-        if (!law.prescribes_flow() && (!least || response_of(law, 0, 0).dp_dq < response_of(*least, 0, 0).dp_dq)) least = &law;
+namespace {
+
+/// The pressure of the point at which all outlet models meet, in the middle of a step; advances their states there.
+double network_pressure(std::span<EndLaw> laws, double time, double ahead) {
+    double inflow = 0, conductance = 0, current = 0;
+    std::vector<OutletResponse> responses(laws.size());
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+        EndLaw& law = laws[k];
+        if (law.prescribes_flow()) inflow += law.signal(time + ahead);
+        if (!law.outlet) continue;
+        if (law.is_started && time > law.known_until)
+            law.level_state = advanced(*law.outlet, law.level_state, {law.known_until, time - law.known_until}, law.level_flow);
+        responses[k] = step_response(*law.outlet, law.level_state, {time, ahead});
+        // An outlet without resistance sets the pressure: a very large conductance says so without a special case.
+        responses[k].dp_dq = std::max(responses[k].dp_dq, least_resistance);
+        conductance += 1 / responses[k].dp_dq;
+        current += responses[k].p0 / responses[k].dp_dq;
     }
-    if (reference == deck::PressureReference::moving && !is_any_prescribed && least) least->is_reference = true;
+    if (conductance == 0) return 0;
+    const double pressure = (inflow + current) / conductance;
+    for (std::size_t k = 0; k < laws.size(); ++k)
+        if (laws[k].outlet) laws[k].level_flow = (pressure - responses[k].p0) / responses[k].dp_dq;
+    return pressure;
 }
 
-double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt) {
+double moving_level(std::span<EndLaw> laws, double time, double ahead) {
+    double sum = 0;
+    int prescribed = 0;
+    for (const EndLaw& law : laws)
+        if (law.type == deck::OpeningType::pressure) sum += law.signal(time + ahead), ++prescribed;
+    return prescribed > 0 ? sum / prescribed : network_pressure(laws, time, ahead);
+}
+
+}  // namespace
+
+double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt, deck::PressureReference reference) {
     // The pressure of a kick stands in the middle of its step (THEORY.md (7.2)).
     const double ahead = 0.5 * dt;
-    double level = 0;
-    int references = 0;
-    std::vector<OutletResponse> wanted(laws.size());
+    const double level = reference == deck::PressureReference::moving ? moving_level(laws, time, ahead) : 0;
     for (std::size_t k = 0; k < laws.size(); ++k) {
         EndLaw& law = laws[k];
         if (law.prescribes_flow()) continue;
@@ -179,17 +203,9 @@ double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time,
         law.known_until = time;
         law.known_flow = flow;
         law.is_started = true;
-        wanted[k] = response_of(law, time, ahead);
-        law.pressure = wanted[k].p0 + wanted[k].dp_dq * flow;
-        if (law.is_reference) level += law.pressure, ++references;
-    }
-    if (references > 0) level /= references;
-    for (std::size_t k = 0; k < laws.size(); ++k) {
-        if (laws[k].prescribes_flow()) continue;
-        // The level answers at once to the flow through its own end: there the pressure above it is what it is.
-        const bool carries_level = laws[k].is_reference && laws[k].outlet;
-        ends[k].pressure = carries_level ? laws[k].pressure - level : wanted[k].p0 - level;
-        ends[k].resistance = carries_level ? 0 : wanted[k].dp_dq;
+        const OutletResponse wanted = response_of(law, time, ahead);
+        ends[k].pressure = wanted.p0 - level;
+        ends[k].resistance = wanted.dp_dq;
     }
     return level;
 }

@@ -28,13 +28,13 @@ struct EndLaw {
     Signal signal;                       ///< flow into the domain [m^3/s] of a velocity end; pressure [Pa]
     double peak_to_mean = 1;             ///< of the velocity over the section
     std::optional<OutletModel> outlet;   ///< of resistance, rcr and coronary
-    bool is_reference = false;           ///< its pressure is part of the moving level
 
     // The state, kept in checkpoints.
     OutletState state{};                 ///< at time `known_until`
     double known_until = 0, known_flow = 0;   ///< [s], [m^3/s] out of the domain
     bool is_started = false;
-    double pressure = 0;                 ///< what was imposed last, as the deck counts it [Pa]
+    OutletState level_state{};           ///< of the same model in the network that gives the moving level
+    double level_flow = 0;               ///< into it there [m^3/s]
     double volume_out = 0;               ///< since the start [m^3]
     double pressure_time = 0;            ///< integral of the mean pressure at the plane [Pa s]
 
@@ -49,14 +49,14 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
 std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
                                                            const EndLaw& law, const deck::Blood& blood);
 
-/// Chooses which ends carry the moving level: those whose pressure is prescribed, else the one outlet that answers least
-/// to its flow. A level that answered more would feed every outlet's echo into the others: with two outlets of
-/// resistances r_1 and r_2 and the level at r_1, waves between them decay only if r_1 <= r_2. None with `fixed`.
-void choose_reference(std::span<EndLaw> laws, deck::PressureReference reference);
-
-/// Sets what the ends impose over an acoustic step of dt from `time` [s], from the flows they have measured, and returns
-/// the moving level [Pa] that it is above.
-double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt);
+/// Sets what the pressure-like ends impose over an acoustic step of dt from `time` [s], from the flows they have
+/// measured, and returns the moving level [Pa] that it is above: the mean of the pressures that are prescribed; without
+/// any, the pressure at which the outlet models together would take up the prescribed inflow if they met in one point.
+///
+/// That level is a function of time, never of the flow that the particles answer with. A level that follows the measured
+/// flows makes every outlet echo into the others: with resistances r_1 and r_2 (over rho c / A) and the level at r_1,
+/// waves between two outlets grow for r_1 > r_2. So each outlet stays passive, whatever it is made of.
+double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt, deck::PressureReference reference);
 
 /// The response of a pressure-like end at `time` to the flow [m^3/s] a time `ahead` [s] later.
 OutletResponse response_of(const EndLaw& law, double time, double ahead);

@@ -33,7 +33,7 @@ void settle(Scene& scene) {
 
 void update_ends(Scene& scene, double time, double dt) {
     settle(scene);   // before the level moves
-    scene.reference_pressure = impose_laws(scene.laws, scene.ends, time, dt);
+    scene.reference_pressure = impose_laws(scene.laws, scene.ends, time, dt, scene.config.numerics.pressure_reference);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) scene.laws[k].volume_out += scene.ends[k].flow * dt;
     scene.unsettled = dt;
 }

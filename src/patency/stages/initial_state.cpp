@@ -96,7 +96,8 @@ PressureField linear_pressure(const Scene& scene) {
     double first = NAN, last = NAN;
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         if (scene.laws[k].prescribes_flow()) continue;
-        const double p = response_of(scene.laws[k], 0, 0).p0;
+        const EndLaw& law = scene.laws[k];
+        const double p = law.outlet ? scene.reference_pressure : law.signal(0);   // an outlet model starts at the level
         (dot(scene.ends[k].normal, axis.direction) < 0 ? first : last) = p;
     }
     const double a = axis.outline.front().radius;

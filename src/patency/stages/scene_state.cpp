@@ -33,7 +33,9 @@ void for_each_number(SceneType& scene, Visit visit) {
         visit("law_known_until", law.known_until);
         visit("law_known_flow", law.known_flow);
         visit("law_is_started", law.is_started);
-        visit("law_pressure", law.pressure);
+        visit("law_level_state_0", law.level_state[0]);
+        visit("law_level_state_1", law.level_state[1]);
+        visit("law_level_flow", law.level_flow);
         visit("law_volume_out", law.volume_out);
         visit("law_pressure_time", law.pressure_time);
     }
