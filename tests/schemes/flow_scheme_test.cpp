@@ -109,7 +109,17 @@ TEST_P(BothPrecisions, ALevelOfPressureIsNotSeen) {
     // A difference of pressures loses the last places of the level, 1e4 Pa times 2^-53 (2^-24): of 100 Pa over 12 spacings
     // this is 1e-13 (7e-5) per spacing. It sums at random over some hundred acoustic steps; 100 for all that.
     const double lost = (GetParam() == Precision::mixed ? std::exp2(-24) : std::exp2(-53)) * offset / (100.0 / 12);
-    for (std::size_t i = 0; i < low.fluid.size(); ++i) ASSERT_LE(norm(low.fluid.velocity[i] - high.fluid.velocity[i]) / fastest(low), 100 * lost);
+    // Particles are paired by place, not by index: one that stands at an opening's threshold may pass it a step earlier in one
+    // of the two flows, and then the order differs.
+    std::size_t alone = 0;
+    for (std::size_t i = 0; i < low.fluid.size(); ++i) {
+        std::size_t same = 0;
+        for (std::size_t j = 1; j < high.fluid.size(); ++j)
+            if (norm(high.fluid.position[j] - low.fluid.position[i]) < norm(high.fluid.position[same] - low.fluid.position[i])) same = j;
+        if (norm(high.fluid.position[same] - low.fluid.position[i]) > 0.01 * dp) ++alone;
+        else ASSERT_LE(norm(low.fluid.velocity[i] - high.fluid.velocity[same]) / fastest(low), 100 * lost);
+    }
+    EXPECT_LE(alone, low.fluid.size() / 50);
     EXPECT_GT(fastest(low), 0.01);   // 100 Pa have moved it
 }
 
