@@ -7,6 +7,7 @@
 #include <random>
 
 #include "patency/base/errors.h"
+#include "patency/verify/sampling_of_scene.h"
 
 namespace patency {
 namespace {
@@ -44,6 +45,13 @@ TEST(WallFit, slope_of_a_parabola_through_zero) {
     WallFit one;
     one.add(1, 1, 1);
     EXPECT_THROW(one.slope(), GeometryError);
+}
+
+TEST(PipeProfile, flow_of_a_parabola_is_exact_though_particles_keep_off_the_wall) {
+    constexpr double dp = 0.1, radius = 1;
+    ProfileFit fit(0.25 * dp, 0.5 * dp, 20, 4);
+    for (double r = 0.02; r < radius - 0.5 * dp; r += 0.013) fit.add(r, 1 - r * r, r);
+    EXPECT_NEAR(flow_through(fit, radius), 0.5 * 3.14159265358979, 1e-12);
 }
 
 }  // namespace

@@ -39,18 +39,15 @@ void measure_pipe(Scene& scene, const RunContext& context, RunData& data) {
         inlet.pressure ? pipe_flow({radius, (*inlet.pressure - outlet.pressure.value_or(0)) / axis.length}, mu) : *inlet.velocity * area;
     const double until = scene.config.numerics.duration;
     run_until(scene, context, 0.6 * until);
-    TimeMean flow, gradient;
+    TimeMean gradient;
     WallFit layer;
-    ProfileFit profile(0.25 * scene.numerics.spacing, 0.5 * scene.numerics.spacing, int(2 * radius / scene.numerics.spacing), 3);
+    ProfileFit profile = make_pipe_fit(scene, axis);
     run_until(scene, context, until, [&](const Scene& now, double dt) {
-        flow.add(mean_velocity_in_middle(now, axis) * area, dt);
         gradient.add(pressure_gradient_in_middle(now, axis), dt);
         add_wall_layer(now, axis, dt, layer);
-        for_each_near_middle(now, axis, 0.25 * axis.length, [&](std::size_t i, double, double r) {
-            profile.add(r, dot(now.fluid.velocity[i], axis.direction), dt);
-        });
+        add_pipe_profile(now, axis, dt, profile);
     });
-    put_number(data, "flow", flow.value());
+    put_number(data, "flow", flow_through(profile, radius));
     put_number(data, "exact_flow", exact_flow);
     put_number(data, "gradient", gradient.value());
     put_number(data, "exact_gradient", pipe_pressure_gradient(radius, mu, exact_flow));
@@ -135,7 +132,7 @@ std::vector<Picture> pipe_pictures(const Results& results) {
 
 void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
     const StraightAxis axis = axis_of(scene);
-    const double radius = axis.outline.front().radius, area = std::numbers::pi * radius * radius;
+    const double radius = axis.outline.front().radius;
     const deck::Fourier& wave = *scene.config.openings.at("inlet").waveform->fourier;
     const double omega = 2 * std::numbers::pi / wave.period, gradient = wave.cosines.at(0) / axis.length;
     auto &times = data.lists["times"], &flows = data.lists["flows"], &stresses = data.lists["stresses"];
@@ -143,7 +140,9 @@ void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
         WallFit layer;
         add_wall_layer(now, axis, 1, layer);
         times.push_back(now.time);
-        flows.push_back(mean_velocity_in_middle(now, axis) * area);
+        ProfileFit profile = make_pipe_fit(now, axis);
+        add_pipe_profile(now, axis, 1, profile);
+        flows.push_back(flow_through(profile, radius));
         stresses.push_back(now.material.viscosity * layer.slope());
     };
     const double until = scene.config.numerics.duration;

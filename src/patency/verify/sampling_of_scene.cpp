@@ -2,6 +2,7 @@
 #include "patency/verify/sampling_of_scene.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "patency/base/errors.h"
 
@@ -49,6 +50,28 @@ void add_plane_profile(const Scene& scene, double columns, double weight, Profil
     for_each_near_middle(scene, axis_of(scene), columns * scene.numerics.spacing, [&](std::size_t i, double, double) {
         fit.add(scene.fluid.position[i].y, scene.fluid.velocity[i].x, weight);
     });
+}
+
+ProfileFit make_pipe_fit(const Scene& scene, const StraightAxis& axis) {
+    const double dp = scene.numerics.spacing;
+    return {0.25 * dp, 0.5 * dp, int(2 * axis.outline.front().radius / dp + 1e-6), 4};
+}
+
+void add_pipe_profile(const Scene& scene, const StraightAxis& axis, double weight, ProfileFit& fit) {
+    for_each_near_middle(scene, axis, 0.25 * axis.length, [&](std::size_t i, double, double r) {
+        fit.add(r, dot(scene.fluid.velocity[i], axis.direction), weight);
+    });
+}
+
+double flow_through(const ProfileFit& fit, double radius) {
+    const std::vector<double> u = fit.values();
+    const auto& r = fit.stations();
+    const auto square = [](double x) { return x * x; };
+    const double slope = (u[1] - u[0]) / (square(r[1]) - square(r[0]));
+    double integral = (u[0] - 0.5 * slope * square(r[0])) * square(r[0]);   // from the axis to the first station
+    for (std::size_t k = 1; k < r.size(); ++k) integral += 0.5 * (u[k] + u[k - 1]) * (square(r[k]) - square(r[k - 1]));
+    integral += 0.5 * u.back() * (square(radius) - square(r.back()));
+    return std::numbers::pi * integral;
 }
 
 void put_number(RunData& data, const std::string& name, double value) { data.lists[name] = {value}; }

@@ -38,6 +38,14 @@ double pressure_gradient_in_middle(const Scene& scene, const StraightAxis& axis)
 void add_plane_profile(const Scene& scene, double columns, double weight, ProfileFit& fit);
 ProfileFit make_plane_fit(const Scene& scene);
 
+/// Axial velocity over the radius of a tube, at stations every half spacing from a quarter on, from the middle half.
+ProfileFit make_pipe_fit(const Scene& scene, const StraightAxis& axis);
+void add_pipe_profile(const Scene& scene, const StraightAxis& axis, double weight, ProfileFit& fit);
+/// Flow [m^3/s] of such a profile that is zero at the wall: pi times the integral over r^2, by the trapezoidal rule, so
+/// exact for parabolas. A plain mean over particles would be too large, by 0.6 % at D/12, since the centres of particles
+/// keep half a spacing off the wall.
+double flow_through(const ProfileFit& fit, double radius);
+
 /// Mean in time of numbers that come with a duration.
 class TimeMean {
 public:
@@ -48,7 +56,6 @@ private:
     double sum_ = 0, time_ = 0;
 };
 
-/// Time histories in step: of a flow, a pressure. Kept in a RunData under these names.
 void put_number(RunData& data, const std::string& name, double value);
 
 }  // namespace patency
