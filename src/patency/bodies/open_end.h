@@ -70,7 +70,7 @@ void measure_flow(OpenEnd& end, const FluidParticles& fluid);
 
 /// Lets particles cross planes, copies those that enter, removes those at the far ends, and renews the tails: copies of
 /// a buffer's first particles (up to `tail` [m] beyond the plane) behind its last ones. New particles are ordered by
-/// (end, parent).
+/// end, then those that enter before those of the tail, each by parent.
 void exchange_particles(FluidParticles& fluid, double spacing, double tail, std::span<OpenEnd> ends);
 
 }  // namespace patency

@@ -176,8 +176,7 @@ private:
         FluidParticles& fluid = domain_.fluid;
         if (domain_.frame.any_periodic())
             for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] = domain_.frame.wrapped(fluid.position[i]); });
-        else
-            check_inside();
+        check_inside();
         fluid.take(cells_.find_order(domain_.frame, numerics_.spacing, {fluid.position.data(), fluid.size()}));
         cells_.index(domain_.frame, numerics_.spacing, {fluid.position.data(), fluid.size()});
     }
@@ -228,7 +227,7 @@ private:
     void shift_particles() {
         FluidParticles& fluid = domain_.fluid;
         const std::size_t n = fluid.size();
-        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : std::pow(numerics_.spacing, 3);
+        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : numerics_.spacing * numerics_.spacing * numerics_.spacing;
         const double scale = 2 * numerics_.shift * kernel_.h * kernel_.h * kernel_.slope() * cell * loop_unit();
         shift_.resize(n);
         const double limit = largest_shift * numerics_.spacing;
@@ -441,9 +440,14 @@ private:
 
     [[noreturn]] void report_divergence() const {
         const FluidParticles& fluid = domain_.fluid;
-        std::size_t worst = 0;
-        for (std::size_t i = 0; i < fluid.size(); ++i)
-            if (!(dot(fluid.velocity[i], fluid.velocity[i]) <= dot(fluid.velocity[worst], fluid.velocity[worst]))) worst = i;
+        std::size_t worst = 0;   // the first that is no number, or else the fastest
+        double largest = -1;
+        for (std::size_t i = 0; i < fluid.size(); ++i) {
+            const double v2 = dot(fluid.velocity[i], fluid.velocity[i]);
+            if (v2 <= largest) continue;
+            worst = i, largest = v2;
+            if (v2 != v2) break;
+        }
         const Vec3 &x = fluid.position[worst], &v = fluid.velocity[worst];
         throw DivergedError(fmt::format("the flow diverged: particle at ({:.4g}, {:.4g}, {:.4g}) m has velocity ({:.3g}, {:.3g}, {:.3g}) m/s "
                                         "and pressure {:.3g} Pa; the sound speed is {:.3g} m/s",
@@ -489,7 +493,7 @@ private:
         FluidParticles& fluid = domain_.fluid;
         const double unit = loop_unit(), c = material_.sound_speed;
         const double stiffness = material_.density * c * c;
-        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : std::pow(numerics_.spacing, 3);
+        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : numerics_.spacing * numerics_.spacing * numerics_.spacing;
         const double smoothing = numerics_.dissipation * c * kernel_.slope() * cell * unit;
         sum_over_neighbours<T>(
             rows_, scale_, Records<T, 1>{geometry_.data(), velocity_.data()}, Records<T, 1>{geometry_.data(), velocity_.data()},

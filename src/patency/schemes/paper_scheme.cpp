@@ -51,7 +51,7 @@ public:
         : domain_(domain), material_(material), numerics_(numerics),
           kernel_{numerics.smoothing_ratio * numerics.spacing, numerics.planar},
           scale_(pair_scale<T>(domain.frame, kernel_.support())),
-          cell_(numerics.planar ? numerics.spacing * numerics.spacing : std::pow(numerics.spacing, 3)),
+          cell_(numerics.planar ? numerics.spacing * numerics.spacing : numerics.spacing * numerics.spacing * numerics.spacing),
           lattice_(lattice_sums(numerics.smoothing_ratio, numerics.planar)) {
         if (sizeof(T) == 8 && domain.frame.any_periodic())
             throw DeckError("numerics.precision: double is not available in a periodic box; use mixed");
@@ -123,8 +123,7 @@ private:
         FluidParticles& fluid = domain_.fluid;
         if (domain_.frame.any_periodic())
             for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] = domain_.frame.wrapped(fluid.position[i]); });
-        else
-            check_inside();
+        check_inside();
         fluid.take(cells_.find_order(domain_.frame, numerics_.spacing, {fluid.position.data(), fluid.size()}));
         cells_.index(domain_.frame, numerics_.spacing, {fluid.position.data(), fluid.size()});
     }
