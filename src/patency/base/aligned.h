@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vector whose storage starts on a cache line, for records and rows that packs load. Growing keeps no old values.
+// A vector whose storage starts on a cache line, for records and rows that packs load. Only extend() keeps old values.
 #pragma once
 
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 namespace patency {
 
@@ -34,6 +36,17 @@ public:
     void reset(std::size_t count, T value) {
         reset(count);
         for (std::size_t i = 0; i < count; ++i) data_.get()[i] = value;
+    }
+
+    /// Room for count values, the first of which are those that were there.
+    void extend(std::size_t count) {
+        if (count > capacity_) {
+            AlignedVector larger;
+            larger.reset(count);
+            if (size_ > 0) std::memcpy(larger.data(), data(), size_ * sizeof(T));
+            *this = std::move(larger);
+        }
+        size_ = count;
     }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pack<T>: a register full of T that behaves like one T. The only file that names vector instructions.
+// Pack<T>: a register full of T that behaves like one T. With select.h the only file that names vector instructions.
 // Every operation is done lane by lane in IEEE arithmetic, so that a sum has the same bits for every width.
 #pragma once
 
@@ -33,6 +33,9 @@ template <> struct Register<float, 16> { typedef float type __attribute__((vecto
 template <> struct Register<double, 2> { typedef double type __attribute__((vector_size(16))); };
 template <> struct Register<double, 4> { typedef double type __attribute__((vector_size(32))); };
 template <> struct Register<double, 8> { typedef double type __attribute__((vector_size(64))); };
+template <> struct Register<std::uint32_t, 4> { typedef std::uint32_t type __attribute__((vector_size(16))); };
+template <> struct Register<std::uint32_t, 8> { typedef std::uint32_t type __attribute__((vector_size(32))); };
+template <> struct Register<std::uint32_t, 16> { typedef std::uint32_t type __attribute__((vector_size(64))); };
 template <int lanes> struct IntRegister;
 template <> struct IntRegister<4> { typedef std::int32_t type __attribute__((vector_size(16))); };
 template <> struct IntRegister<8> { typedef std::int32_t type __attribute__((vector_size(32))); };

@@ -71,6 +71,13 @@ public:
                       std::int64_t reach, Visit visit) const;
 
 private:
+    /// Of the particles [begin, end) of a column, the first whose bin is not below `bin`; without branches, which would
+    /// be guessed wrong half the time.
+    std::uint32_t first_not_below(std::uint32_t begin, std::uint32_t end, std::int32_t bin) const {
+        for (std::uint32_t n = end - begin; n > 0; n /= 2)
+            begin += (n + 1) / 2 * std::uint32_t(bins_[begin + n / 2] < bin);
+        return begin;
+    }
     std::int64_t bin_of(std::int64_t along) const { return (along - origin_[0]) / bin_; }
     void measure(const Frame& frame, double spacing);
     std::uint32_t column_of(const std::array<std::int32_t, 3>& x) const;
@@ -101,6 +108,7 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
         const std::int64_t left = origin_[axis] + c * side_, right = left + side_;
         return left > high[axis] ? left - high[axis] : right < low[axis] ? low[axis] - right : std::int64_t(0);
     };
+    const std::int32_t first_bin = std::int32_t(bin_of(low[0] - reach) - 1), last_bin = std::int32_t(bin_of(high[0] + reach) + 1);
     for (std::int64_t b = b0; b <= b1; ++b) {
         const std::int64_t gap_b = gap(b, 1);
         for (std::int64_t a = a0; a <= a1; ++a) {
@@ -108,19 +116,8 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
             if (gap_a >= reach || gap_b >= reach || gap_a * gap_a + gap_b * gap_b >= r2) continue;   // (squares overflow)
             const std::size_t column = std::size_t(b * columns_[0] + a);
             const std::uint32_t begin = column_start_[column], end = column_start_[column + 1];
-            if (begin == end) continue;
-            const std::int32_t first = std::int32_t(bin_of(low[0] - reach) - 1), last = std::int32_t(bin_of(high[0] + reach) + 1);
-            const auto bins = std::span(bins_).subspan(begin, end - begin);
-            std::uint32_t lo = begin, hi = end;
-            for (std::uint32_t n = end - begin; n > 0;) {   // first particle with bin >= first
-                const std::uint32_t half = n / 2;
-                if (bins[lo - begin + half] < first) { lo += half + 1; n -= half + 1; } else n = half;
-            }
-            hi = lo;
-            for (std::uint32_t n = end - lo; n > 0;) {      // first particle with bin > last
-                const std::uint32_t half = n / 2;
-                if (bins[hi - begin + half] <= last) { hi += half + 1; n -= half + 1; } else n = half;
-            }
+            // The second search could start at lo, but need not wait for it.
+            const std::uint32_t lo = first_not_below(begin, end, first_bin), hi = first_not_below(begin, end, last_bin + 1);
             if (lo < hi) visit(lo, hi);
         }
     }

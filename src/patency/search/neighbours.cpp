@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
+#include <limits>
 #include <utility>
 
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
+#include "patency/base/pack.h"
+#include "patency/base/select.h"
 
 namespace patency {
 
@@ -19,8 +17,13 @@ constexpr std::size_t particles_per_block = 512;   // a multiple of every lane c
 constexpr std::size_t chunk = 16;                  // consecutive particles that share their candidates
 // Candidates are tested in float; pairs this much beyond reach are kept, where the kernel is zero anyway.
 constexpr float reach_margin = 1.0001f;
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Candidates of one chunk: indices, and positions relative to the chunk's first particle, in quanta.
+using Floats = Pack<float>;
+using Indices = Pack<std::uint32_t>;
+constexpr std::size_t width = std::size_t(Floats::lanes);
+
+/// Candidates of one chunk: indices in rising order, and positions relative to the chunk's first particle, in quanta.
 struct Candidates {
     std::vector<std::uint32_t> index;
     std::vector<float> x, y, z;
@@ -28,9 +31,18 @@ struct Candidates {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;   // of particles in memory, where the candidates are looked for
 
     void reserve(std::size_t n) {
-        if (index.size() >= n + 32) return;
+        if (index.size() >= n + width) return;
         const std::size_t size = 2 * n + 1024;
         index.resize(size), x.resize(size), y.resize(size), z.resize(size);
+    }
+    /// Fills the last pack with what is nobody and never near.
+    void finish() {
+        reserve(count);
+        for (std::size_t k = count; k < count + width; ++k) index[k] = UINT32_MAX, x[k] = infinity, y[k] = z[k] = 0;
+    }
+    /// The place of the first one that is not before particle i.
+    std::size_t find(std::uint32_t i) const {
+        return std::size_t(std::lower_bound(index.begin(), index.begin() + std::ptrdiff_t(count), i) - index.begin());
     }
 };
 
@@ -42,92 +54,47 @@ float relative(std::int32_t a, std::int32_t reference) {   // wraps, for periodi
     return float(std::int32_t(std::uint32_t(a) - std::uint32_t(reference)));
 }
 
-#if defined(__AVX512F__)
-
-__m512 relative(const std::int32_t* a, std::int32_t reference) {
-    return _mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_loadu_si512(a), _mm512_set1_epi32(reference)));
-}
-
 /// Appends those particles of [begin, end) that lie within reach of the box.
 void collect(const Cells& cells, std::uint32_t begin, std::uint32_t end, const std::array<std::int32_t, 3>& reference,
              const Box& box, float reach2, Candidates& out) {
     out.reserve(out.count + (end - begin));
-    const __m512 zero = _mm512_setzero_ps();
-    const __m512i ramp = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    for (std::uint32_t j = begin; j < end; j += 16) {
-        __m512 d[3], r2 = zero;
-        for (std::size_t k = 0; k < 3; ++k) {
-            d[k] = relative(&cells.coordinate(int(k))[j], reference[k]);
-            const __m512 gap = _mm512_max_ps(_mm512_max_ps(_mm512_sub_ps(_mm512_set1_ps(box.low[k]), d[k]),
-                                                           _mm512_sub_ps(d[k], _mm512_set1_ps(box.high[k]))), zero);
-            r2 = _mm512_fmadd_ps(gap, gap, r2);
-        }
-        const __mmask16 live = end - j >= 16 ? __mmask16(0xffff) : __mmask16((1u << (end - j)) - 1);
-        const __mmask16 near = _mm512_mask_cmp_ps_mask(live, r2, _mm512_set1_ps(reach2), _CMP_LT_OQ);
-        _mm512_storeu_si512(&out.index[out.count], _mm512_maskz_compress_epi32(near, _mm512_add_epi32(ramp, _mm512_set1_epi32(int(j)))));
-        _mm512_storeu_ps(&out.x[out.count], _mm512_maskz_compress_ps(near, d[0]));
-        _mm512_storeu_ps(&out.y[out.count], _mm512_maskz_compress_ps(near, d[1]));
-        _mm512_storeu_ps(&out.z[out.count], _mm512_maskz_compress_ps(near, d[2]));
-        out.count += std::size_t(__builtin_popcount(near));
+    const auto gap = [&](std::size_t k, Floats d) {
+        return max(max(Floats(box.low[k]) - d, d - Floats(box.high[k])), Floats(0));
+    };
+    const std::int32_t *x = cells.coordinate(0).data(), *y = cells.coordinate(1).data(), *z = cells.coordinate(2).data();
+    std::size_t count = out.count;
+    for (std::uint32_t j = begin; j < end; j += std::uint32_t(width)) {
+        const Floats dx = load_difference<Floats::lanes>(x + j, reference[0]);
+        const Floats dy = load_difference<Floats::lanes>(y + j, reference[1]);
+        const Floats dz = load_difference<Floats::lanes>(z + j, reference[2]);
+        const Floats gx = gap(0, dx), gy = gap(1, dy), gz = gap(2, dz);
+        const Floats r2 = fma(gz, gz, fma(gy, gy, gx * gx));
+        const std::uint32_t near = lanes_below(r2, Floats(reach2)) & first_lanes(end - j);
+        store_chosen(dx, near, &out.x[count]);
+        store_chosen(dy, near, &out.y[count]);
+        store_chosen(dz, near, &out.z[count]);
+        count += store_chosen(count_from<Floats::lanes>(j), near, &out.index[count]);
     }
+    out.count = count;
 }
 
-/// Writes the candidates within reach of the particle to row, itself left out; returns how many.
-std::size_t select(const Candidates& from, float x, float y, float z, std::uint32_t self, float reach2, std::uint32_t* row) {
+/// Writes the candidates within reach of the particle to row, and up to a pack more; returns how many.
+std::size_t select(const Candidates& from, const std::array<float, 3>& at, float reach2, std::uint32_t* row) {
     std::size_t count = 0;
-    const __m512 px = _mm512_set1_ps(x), py = _mm512_set1_ps(y), pz = _mm512_set1_ps(z), limit = _mm512_set1_ps(reach2);
-    const __m512i own = _mm512_set1_epi32(int(self));
-    for (std::size_t k = 0; k < from.count; k += 16) {
-        const __m512 dx = _mm512_sub_ps(_mm512_loadu_ps(&from.x[k]), px), dy = _mm512_sub_ps(_mm512_loadu_ps(&from.y[k]), py),
-                     dz = _mm512_sub_ps(_mm512_loadu_ps(&from.z[k]), pz);
-        const __m512 r2 = _mm512_fmadd_ps(dz, dz, _mm512_fmadd_ps(dy, dy, _mm512_mul_ps(dx, dx)));
-        const __m512i j = _mm512_loadu_si512(&from.index[k]);
-        const __mmask16 live = from.count - k >= 16 ? __mmask16(0xffff) : __mmask16((1u << (from.count - k)) - 1);
-        const __mmask16 near = _mm512_mask_cmpneq_epi32_mask(_mm512_mask_cmp_ps_mask(live, r2, limit, _CMP_LT_OQ), j, own);
-        _mm512_storeu_si512(row + count, _mm512_maskz_compress_epi32(near, j));
-        count += std::size_t(__builtin_popcount(near));
+    for (std::size_t k = 0; k < from.count; k += width) {
+        const Floats dx = Floats::load(&from.x[k]) - at[0], dy = Floats::load(&from.y[k]) - at[1],
+                     dz = Floats::load(&from.z[k]) - at[2];
+        const Floats r2 = fma(dz, dz, fma(dy, dy, dx * dx));
+        count += store_chosen(Indices::load(&from.index[k]), lanes_below(r2, Floats(reach2)), row + count);
     }
     return count;
 }
 
-#else
-
-void collect(const Cells& cells, std::uint32_t begin, std::uint32_t end, const std::array<std::int32_t, 3>& reference,
-             const Box& box, float reach2, Candidates& out) {
-    out.reserve(out.count + (end - begin));
-    for (std::uint32_t j = begin; j < end; ++j) {
-        std::array<float, 3> d;
-        float r2 = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            d[k] = relative(cells.coordinate(int(k))[j], reference[k]);
-            const float gap = std::max(std::max(box.low[k] - d[k], d[k] - box.high[k]), 0.0f);
-            r2 = std::fma(gap, gap, r2);
-        }
-        out.index[out.count] = j;
-        out.x[out.count] = d[0], out.y[out.count] = d[1], out.z[out.count] = d[2];
-        out.count += r2 < reach2;   // without a branch: overwritten unless near
-    }
-}
-
-std::size_t select(const Candidates& from, float x, float y, float z, std::uint32_t self, float reach2, std::uint32_t* row) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < from.count; ++k) {
-        const float dx = from.x[k] - x, dy = from.y[k] - y, dz = from.z[k] - z;
-        const float r2 = std::fma(dz, dz, std::fma(dy, dy, dx * dx));
-        row[count] = from.index[k];
-        count += r2 < reach2 && from.index[k] != self;
-    }
-    return count;
-}
-
-#endif
-
-/// What one thread needs while it fills a block.
-struct Workspace {
-    Candidates candidates;
-    std::vector<std::uint32_t> row_entries;                    // rows one after another
-    std::array<std::uint32_t, particles_per_block + 1> row_start;
-    std::vector<std::uint32_t> rows;                           // of members, as indices into row_start
+/// The group that is being filled: rows each by itself, one per lane.
+struct OpenGroup {
+    std::vector<std::vector<std::uint32_t>> rows;
+    std::vector<std::size_t> lengths;
+    std::vector<std::uint32_t> members;
 };
 
 /// Of the particles [begin, end), around the first of them, the reference.
@@ -180,44 +147,31 @@ void collect_chunk(const Frame& frame, const Box& box, const Cells& other, std::
         collect(other, std::max(first, done), last, reference, box, reach2, out);
         done = last;
     }
+    out.finish();
 }
 
-/// Puts the rows of the block's members side by side, `lanes` at a time.
-/// A short row over the own body is padded with the particle itself, whose differences all vanish; one over another body
-/// with that body's dummy, far away.
-void interleave(const Workspace& work, std::size_t first, std::uint32_t dummy_own, std::uint32_t dummy_other, bool same,
-                std::size_t lanes, Neighbours::Block& block) {
-    const std::size_t members = work.rows.size(), groups = (members + lanes - 1) / lanes;
-    const auto length = [&](std::size_t m) {
-        return m < members ? work.row_start[work.rows[m] + 1] - work.row_start[work.rows[m]] : 0u;
-    };
-    block.members.resize(groups * lanes);
-    block.group_start.resize(groups + 1);
-    std::size_t total = 0;
-    for (std::size_t g = 0; g < groups; ++g) {
-        std::uint32_t longest = 0;
-        for (std::size_t l = 0; l < lanes; ++l) longest = std::max(longest, length(g * lanes + l));
-        block.group_start[g] = std::uint32_t(total);
-        total += longest * lanes;
+/// Appends the group to the block, its rows side by side, and empties it. A short row over the own body is padded with
+/// the particle itself, whose differences all vanish; one over another body with that body's dummy, far away.
+void close(OpenGroup& group, std::uint32_t dummy_own, std::uint32_t dummy_other, bool same, Neighbours::Block& block) {
+    const std::size_t lanes = group.rows.size(), live = group.members.size();
+    group.members.resize(lanes, dummy_own);
+    std::fill(group.lengths.begin() + std::ptrdiff_t(live), group.lengths.end(), 0);
+    const std::size_t longest = *std::max_element(group.lengths.begin(), group.lengths.end());
+    for (std::size_t l = 0; l < lanes; ++l) {
+        auto& row = group.rows[l];
+        if (row.size() < longest + 3) row.resize(longest + 3);
+        std::fill(row.begin() + std::ptrdiff_t(group.lengths[l]), row.begin() + std::ptrdiff_t(longest),
+                  same ? group.members[l] : dummy_other);
+        block.pairs += group.lengths[l];
     }
-    block.group_start[groups] = std::uint32_t(total);
-    block.entries.reset(total);
-    block.pairs = 0;
-    for (std::size_t g = 0; g < groups; ++g) {
-        std::uint32_t* out = block.entries.data() + block.group_start[g];
-        const std::size_t longest = (block.group_start[g + 1] - block.group_start[g]) / lanes;
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const std::size_t m = g * lanes + l;
-            block.members[m] = m < members ? std::uint32_t(first + work.rows[m]) : dummy_own;
-            const std::size_t n = length(m);
-            const std::uint32_t* row = m < members ? &work.row_entries[work.row_start[work.rows[m]]] : nullptr;
-            for (std::size_t k = 0; k < n; ++k) out[k * lanes + l] = row[k];
-            const std::uint32_t padding = same ? block.members[m] : dummy_other;
-            for (std::size_t k = n; k < longest; ++k) out[k * lanes + l] = padding;
-            block.pairs += n;
-        }
-    }
-    block.member_count = std::uint32_t(members);
+    const std::size_t filled = block.group_start.back();
+    block.entries.extend(filled + (longest + 3) * lanes);
+    store_side_by_side(group.rows, longest, &block.entries[filled]);
+    block.entries.extend(filled + longest * lanes);
+    block.group_start.push_back(std::uint32_t(filled + longest * lanes));
+    block.members.insert(block.members.end(), group.members.begin(), group.members.end());
+    block.member_count += std::uint32_t(live);
+    group.members.clear();
 }
 
 }  // namespace
@@ -239,12 +193,19 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
     const std::int64_t reach_integer = std::int64_t(reach_quanta) + 1;
 #pragma omp parallel
     {
-        Workspace work;
+        Candidates candidates;
+        OpenGroup group;
+        group.rows.resize(std::size_t(lanes));
+        group.lengths.resize(std::size_t(lanes));
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t b = 0; b < block_count_; ++b) {
+            Block block = std::move(blocks_[b]);   // with its storage; aside, because blocks of other threads are close by
+            block.members.clear();
+            block.group_start.assign(1, 0);
+            block.entries.reset(0);
+            block.member_count = 0, block.pairs = 0;
+            const auto close_group = [&] { close(group, std::uint32_t(count), std::uint32_t(other.size()), same, block); };
             const std::size_t first = b * particles_per_block, last = std::min(count, first + particles_per_block);
-            work.rows.clear();
-            std::size_t filled = 0;
             for (std::size_t begin = first, end = first; begin < last; begin = end) {
                 end = std::min(last, begin + chunk);
                 const std::array<std::int32_t, 3> reference{own.coordinate(0)[begin], own.coordinate(1)[begin],
@@ -254,21 +215,26 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
                     end = begin + (end - begin) / 2;
                     box = box_around(own, begin, end, reference);
                 }
-                collect_chunk(frame, box, other, reach_integer, reach2, reference, work.candidates);
+                collect_chunk(frame, box, other, reach_integer, reach2, reference, candidates);
+                std::size_t self = candidates.find(std::uint32_t(begin));
                 for (std::size_t i = begin; i < end; ++i) {
-                    if (work.row_entries.size() < filled + work.candidates.count + 32)
-                        work.row_entries.resize(2 * (filled + work.candidates.count) + 65536);
-                    const std::size_t n = select(work.candidates, relative(own.coordinate(0)[i], reference[0]),
-                                                 relative(own.coordinate(1)[i], reference[1]),
-                                                 relative(own.coordinate(2)[i], reference[2]),
-                                                 same ? std::uint32_t(i) : UINT32_MAX, reach2, &work.row_entries[filled]);
-                    work.row_start[i - first] = std::uint32_t(filled);
-                    filled += n;
-                    if (same || n > 0) work.rows.push_back(std::uint32_t(i - first));
+                    std::array<float, 3> x;
+                    for (std::size_t k = 0; k < 3; ++k) x[k] = relative(own.coordinate(int(k))[i], reference[k]);
+                    auto& row = group.rows[group.members.size()];
+                    if (row.size() < candidates.count + width) row.resize(candidates.count + width);
+                    // A particle is no neighbour of its own: it is put out of sight, if it is there at all.
+                    const std::size_t hidden = same && candidates.index[self] == i ? self++ : candidates.count;
+                    const float x_hidden = std::exchange(candidates.x[hidden], infinity);
+                    const std::size_t length = select(candidates, x, reach2, row.data());
+                    candidates.x[hidden] = x_hidden;
+                    if (!same && length == 0) continue;
+                    group.lengths[group.members.size()] = length;
+                    group.members.push_back(std::uint32_t(i));
+                    if (group.members.size() == std::size_t(lanes)) close_group();
                 }
             }
-            work.row_start[last - first] = std::uint32_t(filled);
-            interleave(work, first, std::uint32_t(count), std::uint32_t(other.size()), same, std::size_t(lanes), blocks_[b]);
+            if (!group.members.empty()) close_group();
+            blocks_[b] = std::move(block);
         }
     }
     std::uint32_t members = 0;
