@@ -14,7 +14,7 @@ using namespace patency;
 
 namespace {
 
-constexpr double spacing = 0.1, side = 1.0, length = 3.0, buffer_length = 0.4, tail = 0.26;
+constexpr double spacing = 0.1, spread = 2 * spacing * spacing / 12, side = 1.0, length = 3.0, buffer_length = 0.4, tail = 0.26;
 
 /// A square duct along x with an end at both sides, particles on a lattice.
 struct Duct {
@@ -87,7 +87,7 @@ TEST(OpenEnd, FlowOfAUniformVelocityIsExact) {
     duct.find();
     const Vec3 v{0.3, 0.1, -0.2};
     std::fill(duct.fluid.velocity.begin(), duct.fluid.velocity.end(), v);
-    for (OpenEnd& end : duct.ends) measure_flow(end, duct.fluid);
+    for (OpenEnd& end : duct.ends) measure_flow(end, duct.fluid, spread, 0);
     // A mean of equal numbers, rounded a few hundred times.
     EXPECT_NEAR(duct.ends[0].flow, -0.3 * side * side, 1e-14);
     EXPECT_NEAR(duct.ends[1].flow, 0.3 * side * side, 1e-14);
@@ -100,8 +100,29 @@ TEST(OpenEnd, FlowOfALinearVelocityIsThatAtThePlane) {
         const Vec3 x = duct.fluid.position[i];
         duct.fluid.velocity[i] = {1 + 0.5 * (x.x - length) + 2 * x.y, x.z, 0};
     }
-    measure_flow(duct.ends[1], duct.fluid);
+    measure_flow(duct.ends[1], duct.fluid, spread, 0);
     EXPECT_NEAR(duct.ends[1].flow, side * side, 1e-14);   // the lattice is even about the plane and the axis
+}
+
+TEST(OpenEnd, FlowOfAParabolaIsExact) {                                                          // THEORY.md (8.9)
+    Duct duct;
+    duct.find();
+    const double a = 2, b = 0.3;
+    for (std::size_t i = 0; i < duct.fluid.size(); ++i) {
+        const Vec3 x = duct.fluid.position[i];
+        duct.fluid.velocity[i] = {a - b * (x.y * x.y + x.z * x.z), 0, 0};
+    }
+    measure_flow(duct.ends[1], duct.fluid, spread, 0);
+    // The integral over the square: the mean of y^2 + z^2 is side^2/6. Of the particles' centres it would be less.
+    EXPECT_NEAR(duct.ends[1].flow, side * side * (a - b * side * side / 6), 1e-12 * side * side);
+}
+
+TEST(OpenEnd, AnImposedFlowIsTakenAtItsWord) {
+    Duct duct;
+    duct.find();
+    duct.ends[0].imposed_flow = [](double t) { return -3 * t; };
+    measure_flow(duct.ends[0], duct.fluid, spread, 2);
+    EXPECT_EQ(duct.ends[0].flow, -6);
 }
 
 TEST(OpenEnd, FitOfALinearPressureIsExact) {

@@ -3,6 +3,7 @@
 // arrangement and up to its border, on quadratic ones where they promise it.                          THEORY.md (3)
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 
 #include "tests/schemes/small_flows.h"
@@ -32,6 +33,10 @@ struct Operators : testing::TestWithParam<Variant> {
     bool is_border(const Vec3& x, double layers) const {
         const double half = 0.5 * (planar() ? 18 : 12) * dp - layers * dp;
         return std::abs(x.x) > half || std::abs(x.y) > half || std::abs(x.z) > half;
+    }
+    void remove_viscosity() {
+        flow.blood.viscosity = 1e-30;
+        std::fill(flow.fluid.viscosity.begin(), flow.fluid.viscosity.end(), flow.blood.viscosity);
     }
     void compute() { flow.make(GetParam().precision)->step(0, 1e-15); }
 };
@@ -109,6 +114,44 @@ TEST_P(LatticeOperators, LaplacianOfAQuadraticVelocityIsExact) {
         EXPECT_LE(norm(flow.fluid.slow_acceleration[i] - exact) / norm(exact), tolerance());
     }
     EXPECT_GE(inner, 100);
+}
+
+/// Sets velocities to a quadratic function of place, and the gradients to its own.
+void set_quadratic(SmallFlow& flow, double half) {
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+        const Vec3 q = flow.fluid.position[i] / half;
+        flow.fluid.velocity[i] = {0.6 * q.x * q.x + 0.3 * q.y * q.y + 0.4 * q.x * q.y, 0.5 * q.x * q.y - 0.2 * q.y * q.y, 0.3 * q.x * q.x};
+        flow.fluid.velocity_gradient[i] = (1 / half) * Mat3{{1.2 * q.x + 0.4 * q.y, 0.6 * q.y + 0.4 * q.x, 0},
+                                                            {0.5 * q.y, 0.5 * q.x - 0.4 * q.y, 0},
+                                                            {0.6 * q.x, 0, 0}};
+    }
+}
+
+TEST_P(Operators, DissipationLeavesQuadraticVelocitiesAlone) {                                  // THEORY.md (4.9)
+    remove_viscosity();   // nothing but the dissipation is left
+    set_quadratic(flow, 6 * dp);
+    compute();
+    // Against what it would take from a speed of 1 m/s that changes from particle to particle.
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) EXPECT_LE(norm(flow.fluid.slow_acceleration[i]) * dp, 3 * tolerance());
+}
+
+TEST_P(Operators, DissipationTakesTheEnergyOfNoise) {
+    remove_viscosity();
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> any(-0.01, 0.01);
+    for (Vec3& v : flow.fluid.velocity) v = {any(random), any(random), planar() ? 0 : any(random)};
+    flow.fluid.velocity_gradient[0] = {{1e-12, 0, 0}, {}, {}};   // known, and nothing
+    compute();
+    double power = 0, energy = 0;
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+        power += dot(flow.fluid.velocity[i], flow.fluid.slow_acceleration[i]);
+        energy += dot(flow.fluid.velocity[i], flow.fluid.velocity[i]);
+    }
+    // Noise has no mean among the neighbours, so its rate is U times the sum of V |W'|: 8 pi int W r dr = 2.5/h in space, 2.8/h
+    // in the plane for a whole neighbourhood; half of the block is border.
+    const double h = flow.numerics.smoothing_ratio * dp, rate = -power / energy * h / flow.numerics.reference_speed;
+    EXPECT_GT(rate, 1.5);
+    EXPECT_LT(rate, 3.0);
 }
 
 TEST_P(Operators, ConstantFieldsGiveExactlyNothing) {

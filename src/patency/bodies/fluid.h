@@ -30,6 +30,9 @@ struct FluidParticles : ParticleSet {
     Field<Mat3> velocity_gradient{*this, "velocity_gradient", "1/s", Keep::state};   ///< row a: gradient of v_a
     Field<double> viscosity{*this, "viscosity", "Pa s", Keep::state};
     Field<Vec3> slow_acceleration{*this, "slow_acceleration", "m/s^2", Keep::scratch};
+
+    /// Mean divergence that the sums of the last acoustic step report beyond what leaves through the openings [1/s].
+    double excess_divergence = 0;   //                                                            THEORY.md (4.10)
 };
 
 }  // namespace patency

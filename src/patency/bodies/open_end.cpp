@@ -103,13 +103,22 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
     end.slope = wss > 0 ? (wsp - end.mean_pressure * ws) / wss : 0;
 }
 
-void measure_flow(OpenEnd& end, const FluidParticles& fluid) {
-    double w = 0, wv = 0;
-    for (const auto& m : end.section) {
-        w += m.weight;
-        wv += m.weight * dot(fluid.velocity[m.index], end.normal);
+void measure_flow(OpenEnd& end, const FluidParticles& fluid, double spread, double t) {
+    if (end.imposed_flow) {
+        end.flow = end.imposed_flow(t);
+        return;
     }
-    end.flow = w > 0 ? end.area * wv / w : 0;
+    // The profile's mean curvature: the slope of the velocity over the square of the distance from the axis.
+    double w = 0, wq = 0, wqq = 0, wv = 0, wqv = 0;
+    for (const auto& m : end.section) {
+        const Vec3 d = fluid.position[m.index] - end.centre;
+        const double q = dot(d, d) - m.s * m.s, v = dot(fluid.velocity[m.index], end.normal);
+        w += m.weight, wq += m.weight * q, wqq += m.weight * q * q;
+        wv += m.weight * v, wqv += m.weight * q * v;
+    }
+    const double det = w * wqq - wq * wq;
+    const double curvature = det > 0 ? (w * wqv - wq * wv) / det : 0;
+    end.flow = w > 0 ? end.area * (wv / w + curvature * spread) : 0;
 }
 
 void exchange_particles(FluidParticles& fluid, double spacing, double tail, std::span<OpenEnd> ends) {

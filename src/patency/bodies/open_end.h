@@ -26,13 +26,15 @@ struct OpenEnd {
 
     /// Velocity end: what is imposed at position x and time t [m/s].
     std::function<Vec3(const Vec3& x, double t)> velocity;
+    /// And the flow that this carries out of the domain [m^3/s]; if empty, the particles' is taken for it.
+    std::function<double(double t)> imposed_flow;
     /// Pressure end: what is imposed at the plane, above the reference pressure [Pa].
     double pressure = 0;
     /// How much more is wanted per flow out of the domain [Pa s/m^3]: the response of an outlet model over the step.
     double resistance = 0;
 
-    /// Measured at the plane by the last acoustic step: flow out of the domain [m^3/s], mean pressure there [Pa], and
-    /// its slope along the normal [Pa/m].
+    /// At the plane in the last acoustic step: flow out of the domain, imposed or measured [m^3/s], mean pressure there
+    /// [Pa], and its slope along the normal [Pa/m].
     double flow = 0, mean_pressure = 0, slope = 0;
     /// Audit: particles and volume that have crossed the plane outwards less inwards since the start.
     std::int64_t crossed = 0;
@@ -65,8 +67,10 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
 /// `impedance` is rho c of the blood [Pa s/m].
 void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std::uint32_t)>& pressure);
 
-/// The flow through the plane, from the particles around it.
-void measure_flow(OpenEnd& end, const FluidParticles& fluid);
+/// The flow through the plane at time t: what is imposed, or else from the particles around it. A particle stands for a share of the section, over which the
+/// mean of a curved profile is not the value at its centre: that alone is 1 % of the flow through a pipe at D/12. `spread` is
+/// the mean square distance from the centre in such a share [m^2].                                  THEORY.md (8.9)
+void measure_flow(OpenEnd& end, const FluidParticles& fluid, double spread, double t);
 
 /// Lets particles cross planes, copies those that enter, removes those at the far ends, and renews the tails: copies of
 /// a buffer's first particles (up to `tail` [m] beyond the plane) behind its last ones. New particles are ordered by

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
@@ -45,8 +44,10 @@ constexpr int shift_passes = 2;
 constexpr int cycles_per_row = 2;
 // The shift of one step is at most this share of a spacing: beyond it the correction of the fields is not linear.
 constexpr double largest_shift = 0.1;
-// Stability of the explicit viscous term: the largest eigenvalue of the operator (3.5) is about 12/h^2 in space.
+// Stability of the explicit slow terms: the largest eigenvalue of the operator (3.5) is about 12/h^2, that of (4.9) 2.6/h;
+// both are held to about three quarters of the bound of an explicit step.                          THEORY.md (7.1)
 constexpr double viscous_number = 0.125;
+constexpr double upwind_number = 1.5;
 
 /// A with sum w (e.A e) d d = 2 I, so that the weighted sum of differences is the Laplacian of any quadratic field.
 /// From the fourth moments m[12..26]; 6 equations for xx, yy, zz, xy, xz, yz. P: a double, or a pack of them.
@@ -109,12 +110,13 @@ public:
             write_geometry_records();
             for (int pass = 0; pass < shift_passes; ++pass) shift_particles();
             find_members(domain_.fluid, numerics_.spacing, domain_.ends);
+            measure_flows(time + report.dt);
             write_velocity_records();
             compute_moments();
             compute_corrections();
-            compute_viscosity();
-
             const FlowStep advection = choose_step(longest - report.dt);
+            compute_viscosity(are_gradients_known() ? std::max(advection.fastest, numerics_.reference_speed) : 0);
+
             const double dt = advection.dt / advection.acoustic_steps;
             start_acoustic_steps(dt);
             for (int k = 0; k < advection.acoustic_steps; ++k) {
@@ -122,9 +124,10 @@ public:
                 kick(dt);
                 impose_velocity(time + report.dt + (k + 1) * dt);
                 compress(dt);
+                measure_flows(time + report.dt + (k + 1) * dt);
+                balance_volume();
             }
             move_particles();
-            if (domain_.ends.empty()) hold_mean_pressure();
             // What is left of `longest` by rounding is none of another cycle's business.
             report.dt = advection.dt < longest - report.dt ? report.dt + advection.dt : longest;
             report.acoustic_steps += advection.acoustic_steps;
@@ -227,8 +230,7 @@ private:
     void shift_particles() {
         FluidParticles& fluid = domain_.fluid;
         const std::size_t n = fluid.size();
-        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : numerics_.spacing * numerics_.spacing * numerics_.spacing;
-        const double scale = 2 * numerics_.shift * kernel_.h * kernel_.h * kernel_.slope() * cell * loop_unit();
+        const double scale = 2 * numerics_.shift * kernel_.h * kernel_.h * kernel_.slope() * numerics_.cell() * loop_unit();
         shift_.resize(n);
         const double limit = largest_shift * numerics_.spacing;
         const auto vector = [](const std::array<T, 3>& sum) { return Vec3{sum[0], sum[1], sum[2]}; };
@@ -265,10 +267,18 @@ private:
 
     void write_velocity_records() {
         const FluidParticles& fluid = domain_.fluid;
+        for (auto& row : gradient_) {
+            row.reset(fluid.size() + 1);
+            row[fluid.size()] = {T(0), T(0), T(0), T(0)};
+        }
         const T nearest = T(nearest_wall_distance * numerics_.spacing / loop_unit());
         for_each_index(fluid.size(), [&](std::size_t i) {
             const Vec3& v = fluid.velocity[i];
             velocity_[i] = {T(v.x), T(v.y), T(v.z), T(fluid.viscosity[i] / material_.viscosity)};
+            const Mat3 g = loop_unit() * fluid.velocity_gradient[i];
+            gradient_[0][i] = {T(g.x.x), T(g.x.y), T(g.x.z), T(0)};
+            gradient_[1][i] = {T(g.y.x), T(g.y.y), T(g.y.z), T(0)};
+            gradient_[2][i] = {T(g.z.x), T(g.z.y), T(g.z.z), T(0)};
             geometry_[i].d = max(geometry_[i].d, nearest);
         });
     }
@@ -344,8 +354,15 @@ private:
         return matrix({m[0], m[1], numerics_.planar ? 0.5 * (m[0] + m[1]) : m[2], m[3], m[4], m[5]});
     }
 
-    /// Velocity gradient and viscous acceleration.
-    void compute_viscosity() {
+    /// Those of the last step, which a new flow has not made yet: then nothing can be told from noise.
+    bool are_gradients_known() {
+        const auto& gradient = domain_.fluid.velocity_gradient;
+        const auto square = [&](std::size_t i) { return dot(gradient[i].x, gradient[i].x) + dot(gradient[i].y, gradient[i].y) + dot(gradient[i].z, gradient[i].z); };
+        return gradients_known_ = gradients_known_ || sum_of(domain_.fluid.size(), square) > 0;
+    }
+
+    /// Velocity gradient, viscous acceleration, and the dissipation of what no gradient explains.   THEORY.md (3.5), (4.9)
+    void compute_viscosity(double speed) {
         wall_viscosity_.resize(wall_moments_.size());
         sum_over_neighbours<T>(wall_rows_, scale_, Records<T, 2>{geometry_.data(), laplacian_diagonal_.data(), laplacian_mixed_.data()},
                                Records<T, 0>{wall_geometry_.data()}, terms::WallViscosity{},
@@ -354,12 +371,14 @@ private:
                                },
                                numerics_.loop);
         surface_velocity_.resize(wall_moments_.size());
-        sum_over_neighbours<T>(rows_, scale_, Records<T, 3>{geometry_.data(), velocity_.data(), laplacian_diagonal_.data(), laplacian_mixed_.data()},
-                               Records<T, 1>{geometry_.data(), velocity_.data()}, terms::Viscosity{},
-                               [&](std::uint32_t i, const std::array<T, 18>& sum) { apply_viscosity(i, sum); }, numerics_.loop);
+        sum_over_neighbours<T>(rows_, scale_, Records<T, 6>{geometry_.data(), velocity_.data(), gradient_[0].data(), gradient_[1].data(),
+                                             gradient_[2].data(), laplacian_diagonal_.data(), laplacian_mixed_.data()},
+                               Records<T, 4>{geometry_.data(), velocity_.data(), gradient_[0].data(), gradient_[1].data(), gradient_[2].data()},
+                               terms::Viscosity{}, [&](std::uint32_t i, const std::array<T, 21>& sum) { apply_viscosity(i, sum, speed); },
+                               numerics_.loop);
     }
 
-    void apply_viscosity(std::uint32_t i, const std::array<T, 18>& sum) {
+    void apply_viscosity(std::uint32_t i, const std::array<T, 21>& sum, double speed) {
         FluidParticles& fluid = domain_.fluid;
         const double unit = loop_unit(), mu = fluid.viscosity[i] / material_.viscosity;   // relative, as in the sums
         const Vec3 v = fluid.velocity[i];
@@ -398,6 +417,8 @@ private:
             const Vec3 second = tangential(balance, normal) - (nu * mu * double(wall[34]) / double(wall[30])) * tangential(slope, normal);
             viscous += double(wall_viscosity_[k][1]) * second;
         }
+        const double upwind = numerics_.velocity_dissipation * speed * kernel_.slope() * numerics_.cell() * unit;
+        if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[18], sum[19], sum[20]};
         fluid.slow_acceleration[i] = viscous + numerics_.body_force;
         fluid.velocity_gradient[i] = gradient;
         if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(gradient));
@@ -432,7 +453,8 @@ private:
         const double speed = std::max(fastest, numerics_.reference_speed);
         FlowStep report;
         report.fastest = fastest;
-        report.dt = std::min({numerics_.advection_cfl * h / speed, viscous_number * h * h / material_.kinematic_viscosity(), longest});
+        const double slow = material_.kinematic_viscosity() / (viscous_number * h * h) + upwind_number * numerics_.velocity_dissipation * speed / h;
+        report.dt = std::min({numerics_.advection_cfl * h / speed, 1 / slow, longest});
         const double acoustic = numerics_.acoustic_cfl * h / (material_.sound_speed + speed);
         report.acoustic_steps = std::max(1, int(std::ceil(report.dt / acoustic)));
         return report;
@@ -493,8 +515,9 @@ private:
         FluidParticles& fluid = domain_.fluid;
         const double unit = loop_unit(), c = material_.sound_speed;
         const double stiffness = material_.density * c * c;
-        const double cell = numerics_.planar ? numerics_.spacing * numerics_.spacing : numerics_.spacing * numerics_.spacing * numerics_.spacing;
-        const double smoothing = numerics_.dissipation * c * kernel_.slope() * cell * unit;
+        const double smoothing = numerics_.pressure_dissipation * c * kernel_.slope() * numerics_.cell() * unit;
+        const double excess = fluid.excess_divergence;
+        divergence_.resize(fluid.size());
         sum_over_neighbours<T>(
             rows_, scale_, Records<T, 1>{geometry_.data(), velocity_.data()}, Records<T, 1>{geometry_.data(), velocity_.data()},
             terms::Compression{},
@@ -506,15 +529,17 @@ private:
                     const Vec3 slip = fluid.velocity[i] - surface_velocity_of(i, k);
                     divergence += T(slip.x) * b.wall.x + T(slip.y) * b.wall.y + T(slip.z) * b.wall.z;
                 }
+                divergence_[i] = double(divergence);
+                const double expansion = double(divergence) - excess;
                 const Sums& m = moments_[i];   // of the linear part, whose diffusion vanishes: taken off
                 const Vec3& g = fluid.pressure_gradient[i];
                 const double jump = double(s[6]) - unit * (g.x * m[9] + g.y * m[10] + g.z * m[11]);
                 // Blood does not expand on its way down a pressure gradient: the artificial compressibility acts at a
                 // fixed place, and a particle takes up the pressure of the places it comes to.     THEORY.md (2.6)
-                const double rate = -stiffness * double(divergence) - smoothing * jump + dot(fluid.velocity[i], g);
+                const double rate = -stiffness * expansion - smoothing * jump + dot(fluid.velocity[i], g);
                 fluid.pressure[i] += 0.5 * dt * (fluid.pressure_rate[i] + rate);
                 fluid.pressure_rate[i] = rate;
-                pressure_[i].d = T(fluid.pressure[i] + 0.5 * dt * rate - bulk_share * stiffness * dt * double(divergence));
+                pressure_[i].d = T(fluid.pressure[i] + 0.5 * dt * rate - bulk_share * stiffness * dt * expansion);
             },
             numerics_.loop);
     }
@@ -528,7 +553,6 @@ private:
 
     void impose_pressure(double time, double dt) {
         if (domain_.ends.empty()) return;
-        for (OpenEnd& end : domain_.ends) measure_flow(end, domain_.fluid);
         if (update_ends) update_ends(domain_.ends, time, dt);
         for (OpenEnd& end : domain_.ends) {
             fit_pressure(end, material_.density * material_.sound_speed, [&](std::uint32_t i) { return double(pressure_[i].d); });
@@ -558,16 +582,23 @@ private:
         for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] += moved_[i]; });
     }
 
-    /// Nothing but the divergence tells the level of the pressure in a closed domain, and the divergence of a closed domain
-    /// is zero in the mean, which the sums only know to their order: the mean stays what it was.     THEORY.md (4.8)
-    void hold_mean_pressure() {
-        FluidParticles& fluid = domain_.fluid;
-        const double mean = sum_of(fluid.size(), [&](std::size_t i) { return fluid.pressure[i]; }) / double(fluid.size());
-        if (!closed_mean_) closed_mean_ = mean;
-        for_each_index(fluid.size(), [&](std::size_t i) { fluid.pressure[i] -= mean - *closed_mean_; });
+    void measure_flows(double time) {
+        for (OpenEnd& end : domain_.ends) measure_flow(end, domain_.fluid, numerics_.section_spread(), time);
     }
 
-    std::optional<double> closed_mean_;
+    /// Gauss's theorem for the domain as a whole: the divergences of its blood must add up to the flow through its openings.
+    /// The sums over neighbours know that to their order only; the rest is taken off evenly.          THEORY.md (4.10)
+    void balance_volume() {
+        const FluidParticles& fluid = domain_.fluid;
+        const auto inside = [&](std::size_t i) { return fluid.opening[i] == 0; };
+        const double count = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? 1.0 : 0.0; });
+        const double sum = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? divergence_[i] : 0.0; });
+        double outflow = 0;
+        for (const OpenEnd& end : domain_.ends) outflow += end.flow;
+        domain_.fluid.excess_divergence = (sum - outflow / numerics_.cell()) / count;
+    }
+
+    bool gradients_known_ = false;
     static constexpr std::uint32_t no_wall = UINT32_MAX;
 
     FlowDomain domain_;
@@ -578,6 +609,7 @@ private:
     Cells cells_, wall_cells_;
     Neighbours rows_, wall_rows_;
     AlignedVector<Quad<T>> geometry_, pressure_, velocity_;                  // records: (x, .), (x, p), (v, p)
+    std::array<AlignedVector<Quad<T>>, 3> gradient_;
     AlignedVector<Quad<T>> wall_geometry_, wall_normal_, wall_velocity_;     // (x, depth), (n, curvature), (v, .)
     std::vector<Sums> moments_;
     std::vector<WallSums> wall_moments_;
@@ -587,6 +619,7 @@ private:
     std::vector<Vec3> surface_velocity_;   // of the wall, per member
     AlignedVector<Closure<T>> closures_;
     std::vector<Vec3> shift_, moved_;
+    std::vector<double> divergence_;       // of the velocity, as the sums report it [1/s]
 };
 
 }  // namespace

@@ -23,11 +23,16 @@ struct FlowNumerics {
     double advection_cfl = 0.25;
     double acoustic_cfl = 0.6;
     double reference_speed = 0;     ///< a speed that will be reached, so that the first steps are not too long [m/s]
-    double dissipation = 0.3;       ///< of pressure, as a share of the Riemann solver's           THEORY.md (4.6)
+    double pressure_dissipation = 0.3;   ///< as a share of the Riemann solver's                  THEORY.md (4.6)
+    double velocity_dissipation = 1;     ///< as a share of the upwind flux at the largest speed  THEORY.md (4.9)
     double shift = 0.4;             ///< of particles towards where there are fewer; from 0.5 on it overshoots   THEORY.md (6.2)
     bool free_slip = false;
     Vec3 body_force{};              ///< acceleration [m/s^2]
     LoopKind loop = LoopKind::packed;
+
+    double cell() const { return planar ? spacing * spacing : spacing * spacing * spacing; }   ///< a particle's own space [m^d]
+    /// Mean square distance from the centre of a particle's share of a section, a square or a line [m^2].
+    double section_spread() const { return (planar ? 1 : 2) * spacing * spacing / 12; }
 };
 
 /// What one advection step did.

@@ -113,13 +113,15 @@ PATENCY_INLINE P laplacian_weight(const Pair<P>& pair, const Quads<P>& diagonal,
     return pair.t * pair.t * pair.t * (square + cross + cross) * inverse;
 }
 
-/// What viscosity needs over the own body. Extra quads: (v, mu); of i also A (xx, yy, zz, .) and (xy, xz, yz, .).
+/// What the slow terms need over the own body. Extra quads: (v, mu), the rows of the velocity gradient L in the loop's unit
+/// of length, (L_x, .), (L_y, .), (L_z, .); of i also A (xx, yy, zz, .) and (xy, xz, yz, .).
 ///   0-8   sum w (v_i - v_j) d, by rows          9-11  sum wA mu (v_j - v_i)
 ///   12-14 sum wA mu d                           15-17 sum w (mu_i - mu_j) d
+///   18-20 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
 struct Viscosity {
-    static constexpr int own_extras = 3, extras = 1, sums = 18;
+    static constexpr int own_extras = 6, extras = 4, sums = 21;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 3>& i, const Sample<P, 1>& j, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 6>& i, const Sample<P, 4>& j, std::array<P, sums>& sum) const {
         const Quads<P>&vi = i.extra[0], &vj = j.extra[0];
         const P w = pair.t * pair.t * pair.t;
         const P wx = w * pair.d.x, wy = w * pair.d.y, wz = w * pair.d.z;
@@ -127,11 +129,19 @@ struct Viscosity {
         sum[0] = fma(u, wx, sum[0]), sum[1] = fma(u, wy, sum[1]), sum[2] = fma(u, wz, sum[2]);
         sum[3] = fma(v, wx, sum[3]), sum[4] = fma(v, wy, sum[4]), sum[5] = fma(v, wz, sum[5]);
         sum[6] = fma(q, wx, sum[6]), sum[7] = fma(q, wy, sum[7]), sum[8] = fma(q, wz, sum[8]);
-        const P friction = laplacian_weight(pair, i.extra[1], i.extra[2]) * (P(0.5f) * (vi.d + vj.d));
+        const P friction = laplacian_weight(pair, i.extra[4], i.extra[5]) * (P(0.5f) * (vi.d + vj.d));
         sum[9] -= friction * u, sum[10] -= friction * v, sum[11] -= friction * q;
         sum[12] = fma(friction, pair.d.x, sum[12]), sum[13] = fma(friction, pair.d.y, sum[13]), sum[14] = fma(friction, pair.d.z, sum[14]);
         const P thinning = vi.d - vj.d;
         sum[15] = fma(thinning, wx, sum[15]), sum[16] = fma(thinning, wy, sum[16]), sum[17] = fma(thinning, wz, sum[17]);
+        const auto explained = [&](std::size_t row) {   // by the two gradients: component `row` of (L_i + L_j) d / 2
+            const Quads<P>&gi = i.extra[row], &gj = j.extra[row];
+            return P(0.5f) * fma(gi.a + gj.a, pair.d.x, fma(gi.b + gj.b, pair.d.y, (gi.c + gj.c) * pair.d.z));
+        };
+        const P wr = w * pair.r;
+        sum[18] = fma(wr, u - explained(1), sum[18]);
+        sum[19] = fma(wr, v - explained(2), sum[19]);
+        sum[20] = fma(wr, q - explained(3), sum[20]);
     }
 };
 

@@ -394,7 +394,7 @@ private:
 
     void impose_pressure(double time, double dt) {
         if (domain_.ends.empty()) return;
-        for (OpenEnd& end : domain_.ends) measure_flow(end, domain_.fluid);
+        for (OpenEnd& end : domain_.ends) measure_flow(end, domain_.fluid, numerics_.section_spread(), time);
         if (update_ends) update_ends(domain_.ends, time, dt);
         for (OpenEnd& end : domain_.ends) {
             fit_pressure(end, material_.density * material_.sound_speed, [&](std::uint32_t i) { return double(pressure_[i].d); });

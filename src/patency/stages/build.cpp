@@ -77,7 +77,10 @@ void make_ends(Scene& scene) {
         end.area = opening.area;
         end.reach = opening.reach + dp;
         end.buffer_length = buffer_spacings * dp;
-        if (law.prescribes_flow()) end.velocity = make_end_velocity(opening, said, law, scene.config.blood);
+        if (law.prescribes_flow()) {
+            end.velocity = make_end_velocity(opening, said, law, scene.config.blood);
+            end.imposed_flow = [signal = law.signal](double time) { return -signal(time); };
+        }
         scene.ends.push_back(std::move(end));
         scene.laws.push_back(std::move(law));
     }

@@ -15,6 +15,7 @@ void for_each_number(SceneType& scene, Visit visit) {
     visit("time", scene.time);
     visit("reference_pressure", scene.reference_pressure);
     visit("last_dt", scene.last_dt);
+    visit("excess_divergence", scene.fluid.excess_divergence);
     visit("acoustic_steps", scene.acoustic_steps);
     visit("advection_steps", scene.advection_steps);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
