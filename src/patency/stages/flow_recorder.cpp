@@ -100,7 +100,7 @@ void FlowRecorder::observe(const Scene& scene) {
 void FlowRecorder::write_waveforms(const Scene& scene) {
     if (scene.ends.empty() || !write_row) return;
     const FlowMark now = mark_flow(scene);
-    std::vector<double> row{scene.time};
+    std::vector<double> row{0.5 * (row_mark_.time + now.time)};   // of a mean: the middle of its interval
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         const OpeningMean mean = mean_between(row_mark_, now, k, scene.ends[k].area);
         row.push_back(mean.flow);
