@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "patency/base/errors.h"
 #include "patency/io/hash.h"
+#include "patency/io/progress.h"
 #include "patency/verify/runner.h"
 
 namespace patency::app {
@@ -30,26 +31,31 @@ fs::path find_decks(const std::string& wanted) {
     return fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
 }
 
-/// A line per run, rewritten on a terminal.
+/// A line per run; on its way it is rewritten on a terminal, and repeated every minute elsewhere.
 class Screen {
 public:
     void show(const VerifyProgress& p) {
         const auto now = std::chrono::steady_clock::now();
         const bool is_terminal = isatty(STDERR_FILENO);
+        const std::string name = p.case_name + " " + p.run_name;
+        if (name != name_) name_ = name, start_ = last_ = now;
         if (p.done) {
             const std::string how = !p.done->failure.empty() ? "FAILED: " + p.done->failure
                                     : p.is_reused            ? "done before"
                                                              : fmt::format("{} steps, {:.1f} s ({:.1f} CPU s)", p.done->acoustic_steps, p.done->wall_s, p.done->cpu_s);
-            fmt::print(stderr, "{}{:<42} {:>9} particles  {}\n", is_terminal ? "\r\033[K" : "", p.case_name + " " + p.run_name, p.done->particles, how);
-        } else if (is_terminal && now - last_ > std::chrono::milliseconds(300)) {
-            fmt::print(stderr, "\r\033[K{:<42} {:>5.1f} %", p.case_name + " " + p.run_name, 100 * p.share);
+            fmt::print(stderr, "{}{:<42} {:>9} particles  {}\n", is_terminal ? "\r\033[K" : "", name, p.done->particles, how);
+        } else if (now - last_ > (is_terminal ? std::chrono::milliseconds(300) : std::chrono::milliseconds(60000))) {
+            const double spent = std::chrono::duration<double>(now - start_).count();
+            const std::string left = p.share > 0 ? "  left " + duration_text(spent * (1 - p.share) / p.share) : "";
+            fmt::print(stderr, "{}{:<42} {:>5.1f} %{}{}", is_terminal ? "\r\033[K" : "", name, 100 * p.share, left, is_terminal ? "" : "\n");
             std::fflush(stderr);
             last_ = now;
         }
     }
 
 private:
-    std::chrono::steady_clock::time_point last_{};
+    std::string name_;
+    std::chrono::steady_clock::time_point start_{}, last_{};
 };
 
 void print_report(const CaseReport& report) {
