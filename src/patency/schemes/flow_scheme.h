@@ -22,24 +22,26 @@ struct FlowNumerics {
     bool planar = false;
     double advection_cfl = 0.25;
     double acoustic_cfl = 0.6;
-    double reference_speed = 0;     ///< a speed that will be reached, so that the first steps are not too long [m/s]
+    double reference_speed = 0;   ///< a speed that will be reached, so that the first steps are not too long [m/s]
     double pressure_dissipation = 0.3;   ///< as a share of the Riemann solver's                  THEORY.md (4.6)
     double velocity_dissipation = 1;     ///< as a share of the upwind flux at the largest speed  THEORY.md (4.9)
-    double shift = 0.4;             ///< of particles towards where there are fewer; from 0.5 on it overshoots   THEORY.md (6.2)
+    double shift = 0.4;                  ///< to where there are fewer; from 0.5 on it overshoots      THEORY.md (6.2)
     bool free_slip = false;
-    Vec3 body_force{};              ///< acceleration [m/s^2]
+    Vec3 body_force{};   ///< acceleration [m/s^2]
     LoopKind loop = LoopKind::packed;
 
-    double cell() const { return planar ? spacing * spacing : spacing * spacing * spacing; }   ///< a particle's own space [m^d]
+    WendlandC2 kernel() const { return {smoothing_ratio * spacing, planar}; }
+    /// A particle's own space [m^d].
+    double cell() const { return planar ? spacing * spacing : spacing * spacing * spacing; }
     /// Mean square distance from the centre of a particle's share of a section, a square or a line [m^2].
     double section_spread() const { return (planar ? 1 : 2) * spacing * spacing / 12; }
 };
 
 /// What one advection step did.
 struct FlowStep {
-    double dt = 0;                  ///< [s]
+    double dt = 0;   ///< [s]
     int acoustic_steps = 0;
-    double fastest = 0;             ///< largest speed [m/s]
+    double fastest = 0;   ///< largest speed [m/s]
 };
 
 class FlowScheme {
@@ -49,6 +51,11 @@ public:
     virtual FlowStep step(double time, double longest) = 0;
     /// Calls the law of the open ends' pressures once per acoustic step: end.flow is measured, end.pressure is wanted.
     std::function<void(std::span<OpenEnd>, double time, double dt)> update_ends;
+
+protected:
+    void update_wanted_pressures(std::span<OpenEnd> ends, double time, double dt) const {
+        if (update_ends && !ends.empty()) update_ends(ends, time, dt);
+    }
 };
 
 /// Everything a scheme works on; it must outlive the scheme.
@@ -63,7 +70,7 @@ struct FlowDomain {
 
 enum class Precision { mixed, double_precision };
 
-std::unique_ptr<FlowScheme> make_flow_scheme(Precision precision, const FlowDomain& domain, const FluidMaterial& material,
-                                             const FlowNumerics& numerics);
+std::unique_ptr<FlowScheme> make_flow_scheme(Precision precision, const FlowDomain& domain,
+                                             const FluidMaterial& material, const FlowNumerics& numerics);
 
-}  // namespace patency
+}   // namespace patency

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/schemes/paper_scheme.h"
 
-#include <fmt/format.h>
-
-#include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 
-#include "patency/base/errors.h"
 #include "patency/base/parallel.h"
+#include "patency/physics/fluid/shear_rate.h"
+#include "patency/schemes/ends.h"
+#include "patency/schemes/order.h"
 #include "patency/schemes/paper_terms.h"
-#include "patency/search/cells.h"
+#include "patency/schemes/watch.h"
 
 namespace patency {
 
@@ -19,7 +16,6 @@ namespace {
 
 // How much of the wanted correction a buffer's masses take up per advection step: slow against the noise of the summed
 // density from layer to layer, fast against the passage through the buffer.
-
 constexpr double mass_correction = 0.1;
 // The summed density takes over within so many spacings inside an opening. At once, it would answer every layer that
 // passes the plane with a knock on the whole column of blood.
@@ -48,18 +44,19 @@ template <class T>
 class PaperScheme final : public FlowScheme {
 public:
     PaperScheme(const FlowDomain& domain, const FluidMaterial& material, const FlowNumerics& numerics)
-        : domain_(domain), material_(material), numerics_(numerics),
-          kernel_{numerics.smoothing_ratio * numerics.spacing, numerics.planar},
+        : domain_(domain),
+          material_(material),
+          numerics_(numerics),
+          kernel_(numerics.kernel()),
           scale_(pair_scale<T>(domain.frame, kernel_.support())),
-          cell_(numerics.planar ? numerics.spacing * numerics.spacing : numerics.spacing * numerics.spacing * numerics.spacing),
+          cell_(numerics.cell()),
           lattice_(lattice_sums(numerics.smoothing_ratio, numerics.planar)) {
-        if (sizeof(T) == 8 && domain.frame.any_periodic())
-            throw DeckError("numerics.precision: double is not available in a periodic box; use mixed");
-        prepare_wall();
+        sort_wall(domain_.wall, wall_cells_, domain_.frame, numerics_.spacing);
+        write_wall_records();
     }
 
     FlowStep step(double time, double longest) override {
-        sort_particles();
+        sort_blood(domain_.fluid, cells_, domain_.frame, numerics_.spacing);
         find_neighbours();
         find_members(domain_.fluid, numerics_.spacing, domain_.ends);
         find_shares();
@@ -73,10 +70,12 @@ public:
             const double start = k * acoustic_step_;
             const double dt = std::min(acoustic_step_, report.dt - start);   // the last one is clipped
             advance_pressure(dt);
-            impose_pressure(time + start, dt);
+            measure_flows(domain_, numerics_, time + start);
+            update_wanted_pressures(domain_.ends, time + start, dt);
+            impose_pressure(domain_, material_, pressure_);
             compute_wall_pressure();
             kick(dt);
-            impose_velocity(time + start + dt);
+            impose_velocity(domain_, time + start + dt, velocity_);
             compute_wall_velocity();
             compress(dt);
         }
@@ -86,73 +85,23 @@ public:
     }
 
 private:
-    Quad<T> record(const Vec3& x, T value) const {
-        if constexpr (sizeof(T) == 4) {
-            const auto f = domain_.frame.fixed(x);
-            return {std::bit_cast<float>(f[0]), std::bit_cast<float>(f[1]), std::bit_cast<float>(f[2]), value};
-        } else {
-            return {x.x, x.y, x.z, value};
-        }
-    }
-    /// Far from everything that may ever be there (half the fixed-point range away), at rest.
-    Quad<T> dummy_record() const {
-        if constexpr (sizeof(T) == 4)
-            return {std::bit_cast<float>(INT32_MIN), std::bit_cast<float>(INT32_MIN), std::bit_cast<float>(INT32_MIN), T(0)};
-        else
-            return {T(1e9), T(1e9), T(1e9), T(0)};
-    }
-    static Quad<T> with(const Vec3& v, double last) { return {T(v.x), T(v.y), T(v.z), T(last)}; }
-    Records<T, 0> bare(const AlignedVector<Quad<T>>& a) const { return {a.data()}; }
-    Records<T, 1> both(const AlignedVector<Quad<T>>& a, const AlignedVector<Quad<T>>& b) const { return {a.data(), b.data()}; }
-
-    void prepare_wall() {
-        WallParticles& wall = domain_.wall;
-        wall.take(wall_cells_.find_order(domain_.frame, numerics_.spacing, {wall.position.data(), wall.size()}));
-        wall_cells_.index(domain_.frame, numerics_.spacing, {wall.position.data(), wall.size()});
+    void write_wall_records() {
+        const WallParticles& wall = domain_.wall;
         const std::size_t n = wall.size();
         wall_pressure_.reset(n + 1), wall_velocity_.reset(n + 1);
         for (std::size_t w = 0; w < n; ++w) {
-            wall_pressure_[w] = record(wall.position[w], T(0));
-            wall_velocity_[w] = with(wall.velocity[w], wall.volume[w] / cell_);
+            wall_pressure_[w] = position_record(domain_.frame, wall.position[w], T(0));
+            wall_velocity_[w] = vector_record(wall.velocity[w], T(wall.volume[w] / cell_));
         }
-        wall_pressure_[n] = dummy_record();
-        wall_velocity_[n] = with({}, 0);
-    }
-
-    void sort_particles() {
-        FluidParticles& fluid = domain_.fluid;
-        if (domain_.frame.any_periodic())
-            for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] = domain_.frame.wrapped(fluid.position[i]); });
-        check_inside();
-        fluid.take(cells_.find_order(domain_.frame, numerics_.spacing, {fluid.position.data(), fluid.size()}));
-        cells_.index(domain_.frame, numerics_.spacing, {fluid.position.data(), fluid.size()});
-    }
-
-    void check_inside() const {
-        const FluidParticles& fluid = domain_.fluid;
-        const double outside = sum_of(fluid.size(), [&](std::size_t i) { return domain_.frame.contains(fluid.position[i]) ? 0.0 : 1.0; });
-        if (outside == 0) return;
-        for (std::size_t i = 0; i < fluid.size(); ++i)
-            if (!domain_.frame.contains(fluid.position[i])) report_divergence(i, fmt::format("{} particles left the domain", outside));
-    }
-
-    [[noreturn]] void report_divergence(std::size_t i, const std::string& what) const {
-        const FluidParticles& fluid = domain_.fluid;
-        const Vec3 &x = fluid.position[i], &v = fluid.velocity[i];
-        throw DivergedError(fmt::format("{}: particle at ({:.4g}, {:.4g}, {:.4g}) m has velocity ({:.3g}, {:.3g}, {:.3g}) m/s and "
-                                        "pressure {:.3g} Pa; the sound speed is {:.3g} m/s",
-                                        what, x.x, x.y, x.z, v.x, v.y, v.z, fluid.pressure[i], material_.sound_speed));
+        wall_pressure_[n] = dummy_record<T>();
+        wall_velocity_[n] = zero_record<T>();
     }
 
     void find_neighbours() {
         rows_.find_own(domain_.frame, cells_, kernel_.support(), native_lanes<T>);
         wall_rows_.find_other(domain_.frame, cells_, wall_cells_, kernel_.support(), native_lanes<T>);
         rows_of_wall_.find_other(domain_.frame, wall_cells_, cells_, kernel_.support(), native_lanes<T>);
-        wall_of_.assign(domain_.fluid.size(), no_wall);
-        for_each_index(wall_rows_.block_count(), [&](std::size_t b) {
-            const auto& block = wall_rows_.block(b);
-            for (std::uint32_t m = 0; m < block.member_count; ++m) wall_of_[block.members[m]] = block.first_member + m;
-        });
+        number_wall_rows(wall_rows_, domain_.fluid.size(), wall_of_);
     }
 
     /// How far each particle is in the grasp of its opening (0 inside), and how far its density is the summed one.
@@ -174,18 +123,23 @@ private:
         FluidParticles& fluid = domain_.fluid;
         const std::size_t n = fluid.size();
         geometry_.reset(n + 1);
-        for_each_index(n, [&](std::size_t i) { geometry_[i] = record(fluid.position[i], T(fluid.viscosity[i] / material_.viscosity)); });
-        geometry_[n] = dummy_record();
+        for_each_index(n, [&](std::size_t i) {
+            geometry_[i] =
+                position_record(domain_.frame, fluid.position[i], T(fluid.viscosity[i] / material_.viscosity));
+        });
+        geometry_[n] = dummy_record<T>();
         std::vector<double> by_wall(wall_rows_.member_count());
-        sum_over_neighbours<T>(wall_rows_, scale_, bare(geometry_), bare(wall_pressure_), terms::NumberDensity{},
-                               [&](std::uint32_t i, const std::array<T, 1>& s) { by_wall[wall_of_[i]] = double(s[0]); }, numerics_.loop);
+        sum_over_neighbours<T>(
+            wall_rows_, scale_, records_of(geometry_), records_of(wall_pressure_), terms::NumberDensity{},
+            [&](std::uint32_t i, const std::array<T, 1>& s) { by_wall[wall_of_[i]] = double(s[0]); }, numerics_.loop);
         summed_density_.resize(n);
-        sum_over_neighbours<T>(rows_, scale_, bare(geometry_), bare(geometry_), terms::NumberDensity{},
-                               [&](std::uint32_t i, const std::array<T, 1>& s) {
-                                   const double sum = 1 + double(s[0]) + (wall_of_[i] == no_wall ? 0.0 : by_wall[wall_of_[i]]);
-                                   summed_density_[i] = material_.density * (fluid.volume[i] / cell_) * (sum / lattice_.shape);
-                               },
-                               numerics_.loop);
+        sum_over_neighbours<T>(
+            rows_, scale_, records_of(geometry_), records_of(geometry_), terms::NumberDensity{},
+            [&](std::uint32_t i, const std::array<T, 1>& s) {
+                const double sum = 1 + double(s[0]) + (wall_of_[i] == no_wall ? 0.0 : by_wall[wall_of_[i]]);
+                summed_density_[i] = material_.density * (fluid.volume[i] / cell_) * (sum / lattice_.shape);
+            },
+            numerics_.loop);
         for_each_index(n, [&](std::size_t i) {
             const double summed = pressure_at_density(summed_density_[i], material_.density, material_.sound_speed);
             fluid.pressure[i] += summed_share_[i] * (summed - fluid.pressure[i]);
@@ -219,26 +173,27 @@ private:
         for_each_index(n, [&](std::size_t i) {
             const double volume = fluid.volume[i] * material_.density / density(i);
             pressure_[i] = geometry_[i];
-            velocity_[i] = with(fluid.velocity[i], volume / cell_);
+            velocity_[i] = vector_record(fluid.velocity[i], T(volume / cell_));
             specific_volume_[i] = 1 / density(i);
         });
-        pressure_[n] = dummy_record();
-        velocity_[n] = kicked_[n] = with({}, 0);
+        pressure_[n] = dummy_record<T>();
+        velocity_[n] = kicked_[n] = zero_record<T>();
     }
 
-    /// v_w = 2 v_s - average of the blood; where the wall slips only the normal part is turned round.   THEORY.md (11.4)
+    /// v_w = 2 v_s - average of the blood; where the wall slips only the normal part is turned round.  THEORY.md (11.4)
     void compute_wall_velocity() {
         const WallParticles& wall = domain_.wall;
-        sum_over_neighbours<T>(rows_of_wall_, scale_, bare(wall_pressure_), both(pressure_, velocity_), terms::WallVelocity{},
-                               [&](std::uint32_t w, const std::array<T, 4>& s) {
-                                   if (!(s[0] > T(0))) return;
-                                   const Vec3 blood = Vec3{s[1], s[2], s[3]} / double(s[0]);
-                                   const Vec3 slip = blood - wall.velocity[w];
-                                   const Vec3& n = wall.normal[w];
-                                   const Vec3 v = blood - 2 * (numerics_.free_slip ? dot(slip, n) * n : slip);
-                                   wall_velocity_[w] = with(v, wall.volume[w] / cell_);
-                               },
-                               numerics_.loop);
+        sum_over_neighbours<T>(
+            rows_of_wall_, scale_, records_of(wall_pressure_), records_of(pressure_, velocity_), terms::WallVelocity{},
+            [&](std::uint32_t w, const std::array<T, 4>& s) {
+                if (!(s[0] > T(0))) return;
+                const Vec3 blood = Vec3{s[1], s[2], s[3]} / double(s[0]);
+                const Vec3 slip = blood - wall.velocity[w];
+                const Vec3& n = wall.normal[w];
+                const Vec3 v = blood - 2 * (numerics_.free_slip ? dot(slip, n) * n : slip);
+                wall_velocity_[w] = vector_record(v, T(wall.volume[w] / cell_));
+            },
+            numerics_.loop);
     }
 
     /// Pressure behind the wall, so that blood at the wall stays there.                           THEORY.md (11.5)
@@ -246,39 +201,44 @@ private:
         const terms::WallPressure<T> term{T(material_.density), T(material_.sound_speed)};
         const double unit = scale_.unit;
         const Vec3& g = numerics_.body_force;
-        sum_over_neighbours<T>(rows_of_wall_, scale_, bare(wall_pressure_), bare(pressure_), term,
-                               [&](std::uint32_t w, const std::array<T, 5>& s) {
-                                   const double weight = double(s[0]);
-                                   if (weight > 0) wall_pressure_[w].d = T((double(s[1]) + unit * dot(g, Vec3{s[2], s[3], s[4]})) / weight);
-                               },
-                               numerics_.loop);
+        sum_over_neighbours<T>(
+            rows_of_wall_, scale_, records_of(wall_pressure_), records_of(pressure_), term,
+            [&](std::uint32_t w, const std::array<T, 5>& s) {
+                const double weight = double(s[0]);
+                if (weight > 0)
+                    wall_pressure_[w].d = T((double(s[1]) + unit * dot(g, Vec3{s[2], s[3], s[4]})) / weight);
+            },
+            numerics_.loop);
     }
 
     /// Viscous and body acceleration, velocity gradient and shift, frozen over the advection step.
     void compute_slow_part() {
         using Sums = std::array<T, 21>;
         std::vector<Sums> by_wall(wall_rows_.member_count());
-        sum_over_neighbours<T>(wall_rows_, scale_, both(geometry_, velocity_), both(wall_pressure_, wall_velocity_),
-                               terms::SlowSums<terms::Over::wall>{},
-                               [&](std::uint32_t i, const Sums& s) { by_wall[wall_of_[i]] = s; }, numerics_.loop);
+        sum_over_neighbours<T>(
+            wall_rows_, scale_, records_of(geometry_, velocity_), records_of(wall_pressure_, wall_velocity_),
+            terms::SlowSums<terms::Over::wall>{}, [&](std::uint32_t i, const Sums& s) { by_wall[wall_of_[i]] = s; },
+            numerics_.loop);
         const std::size_t n = domain_.fluid.size();
         shift_.resize(n);
-        sum_over_neighbours<T>(rows_, scale_, both(geometry_, velocity_), both(geometry_, velocity_),
-                               terms::SlowSums<terms::Over::blood>{},
-                               [&](std::uint32_t i, Sums s) {
-                                   if (const std::uint32_t k = wall_of_[i]; k != no_wall)
-                                       for (std::size_t a = 0; a < s.size(); ++a)
-                                           if (a < 18 || !numerics_.free_slip) s[a] += by_wall[k][a];
-                                   apply_slow_part(i, s);
-                               },
-                               numerics_.loop);
+        sum_over_neighbours<T>(
+            rows_, scale_, records_of(geometry_, velocity_), records_of(geometry_, velocity_),
+            terms::SlowSums<terms::Over::blood>{},
+            [&](std::uint32_t i, Sums s) {
+                if (const std::uint32_t k = wall_of_[i]; k != no_wall)
+                    for (std::size_t a = 0; a < s.size(); ++a)
+                        if (a < 18 || !numerics_.free_slip) s[a] += by_wall[k][a];
+                apply_slow_part(i, s);
+            },
+            numerics_.loop);
     }
 
     void apply_slow_part(std::uint32_t i, const std::array<T, 21>& s) {
         FluidParticles& fluid = domain_.fluid;
         const double unit = scale_.unit, slope = kernel_.slope() * cell_;   // per lattice cell, as V is
         const bool planar = numerics_.planar;
-        const Mat3 moment{{s[3], s[6], s[7]}, {s[6], s[4], s[8]}, {s[7], s[8], planar ? T(0.5f) * (s[3] + s[4]) : s[5]}};
+        const Mat3 moment{
+            {s[3], s[6], s[7]}, {s[6], s[4], s[8]}, {s[7], s[8], planar ? T(0.5f) * (s[3] + s[4]) : s[5]}};
         const Mat3 jumps{{s[9], s[10], s[11]}, {s[12], s[13], s[14]}, {s[15], s[16], s[17]}};
         const double size = trace(moment) / 3;
         const bool surrounded = determinant(moment) > 1e-3 * size * size * size;
@@ -288,44 +248,30 @@ private:
         if (fluid.opening[i] != 0) {
             // Nothing changes along the axis of an opening, so the friction with the layers that are missing behind the
             // buffer is that with those that are there.  THEORY.md (11.8)
-            const Vec3& axis = domain_.ends[std::size_t(std::abs(fluid.opening[i])) - 1].normal;
+            const Vec3& axis = end_of(domain_, i).normal;
             const double there = (planar ? double(s[3] + s[4]) : trace(moment)) - dot(axis, moment * axis);
-            const double whole = (planar ? 1 : 2) * lattice_.moment * numerics_.spacing * numerics_.spacing / (unit * unit);
+            const double whole =
+                (planar ? 1 : 2) * lattice_.moment * numerics_.spacing * numerics_.spacing / (unit * unit);
             if (there > 0) completed = 1 + imposed_share_[i] * (whole / there - 1);
         }
         const Vec3 friction{s[18], s[19], s[20]};
         if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(fluid.velocity_gradient[i]));
         fluid.slow_acceleration[i] =
             (2 * material_.viscosity * slope * specific_volume_[i] * completed) * friction + numerics_.body_force;
-        // Transport velocity towards where there are fewer: -2 sum V grad W = 2 slope sum V w d.     THEORY.md (6.1), (6.2)
+        // Transport velocity towards where there are fewer: -2 sum V grad W = 2 slope sum V w d. THEORY.md (6.1), (6.2)
         const double scale = 2 * transport_share * kernel_.h * kernel_.h * slope * unit;
         shift_[i] = fluid.opening[i] == 0 ? scale * Vec3{s[0], s[1], s[2]} : Vec3{};
     }
 
-    /// sqrt(2 D:D), D the rate of deformation [1/s].                                               THEORY.md (10.1)
-    static double shear_rate(const Mat3& g) {
-        const Mat3 d = 0.5 * (g + transpose(g));
-        return std::sqrt(2 * (dot(d.x, d.x) + dot(d.y, d.y) + dot(d.z, d.z)));
-    }
-
-    /// The advection step and the acoustic step in it.                                            THEORY.md (7.1), (7.2)
+    /// The advection step and the acoustic step in it.                                        THEORY.md (7.1), (7.2)
     FlowStep choose_step(double longest) {
-        const FluidParticles& fluid = domain_.fluid;
         const double h = kernel_.h, c = material_.sound_speed;
-        const double fastest = std::sqrt(largest_of(fluid.size(), [&](std::size_t i) {
-            const double v2 = dot(fluid.velocity[i], fluid.velocity[i]);
-            return v2 == v2 ? v2 : std::numeric_limits<double>::infinity();   // a NaN must not vanish in a comparison
-        }));
-        if (!(fastest < 20 * c)) {
-            std::size_t worst = 0;
-            for (std::size_t i = 0; i < fluid.size(); ++i)
-                if (!(dot(fluid.velocity[i], fluid.velocity[i]) <= dot(fluid.velocity[worst], fluid.velocity[worst]))) worst = i;
-            report_divergence(worst, "the flow diverged");
-        }
+        const double fastest = find_fastest(domain_.fluid, c);
         const double speed = std::max(fastest, numerics_.reference_speed);
         FlowStep report;
         report.fastest = fastest;
-        report.dt = std::min({numerics_.advection_cfl * h / speed, numerics_.advection_cfl * h * h / material_.kinematic_viscosity(), longest});
+        report.dt = std::min({numerics_.advection_cfl * h / speed,
+                              numerics_.advection_cfl * h * h / material_.kinematic_viscosity(), longest});
         acoustic_step_ = numerics_.acoustic_cfl * h / (c + speed);
         // A last step of round-off is none.
         report.acoustic_steps = std::max(1, int(std::ceil(report.dt / acoustic_step_ - 1e-9)));
@@ -335,7 +281,9 @@ private:
     /// Half a step of density before the kick.                                                       THEORY.md (7.4)
     void advance_pressure(double dt) {
         const FluidParticles& fluid = domain_.fluid;
-        for_each_index(fluid.size(), [&](std::size_t i) { pressure_[i].d = T(fluid.pressure[i] + 0.5 * dt * fluid.pressure_rate[i]); });
+        for_each_index(fluid.size(), [&](std::size_t i) {
+            pressure_[i].d = T(fluid.pressure[i] + 0.5 * dt * fluid.pressure_rate[i]);
+        });
     }
 
     /// v += dt (pressure force / mass + slow acceleration), and the way of half a step before and after.
@@ -343,31 +291,35 @@ private:
         FluidParticles& fluid = domain_.fluid;
         const terms::RiemannForce<T> term{{T(material_.density), T(material_.sound_speed)}};
         force_by_wall_.resize(wall_rows_.member_count());
-        sum_over_neighbours<T>(wall_rows_, scale_, both(pressure_, velocity_), both(wall_pressure_, wall_velocity_), term,
-                               [&](std::uint32_t i, const std::array<T, 3>& s) { force_by_wall_[wall_of_[i]] = {s[0], s[1], s[2]}; },
-                               numerics_.loop);
+        sum_over_neighbours<T>(
+            wall_rows_, scale_, records_of(pressure_, velocity_), records_of(wall_pressure_, wall_velocity_), term,
+            [&](std::uint32_t i, const std::array<T, 3>& s) {
+                force_by_wall_[wall_of_[i]] = {s[0], s[1], s[2]};
+            },
+            numerics_.loop);
         const double scale = kernel_.slope() * cell_ * scale_.unit;
-        sum_over_neighbours<T>(rows_, scale_, both(pressure_, velocity_), both(pressure_, velocity_), term,
-                               [&](std::uint32_t i, const std::array<T, 3>& s) {
-                                   Vec3 push{s[0], s[1], s[2]};
-                                   if (const std::uint32_t k = wall_of_[i]; k != no_wall) push += force_by_wall_[k];
-                                   Vec3 gradient = -scale * push;
-                                   if (const double share = imposed_share_[i]; share > 0)
-                                       gradient += share * (imposed_gradient(i) - gradient);
-                                   fluid.pressure_gradient[i] = gradient;
-                                   const Vec3 a = fluid.slow_acceleration[i] - specific_volume_[i] * gradient;
-                                   const Vec3 before = fluid.velocity[i], after = before + dt * a;
-                                   fluid.velocity[i] = after;
-                                   moved_[i] += 0.5 * dt * (before + after);
-                                   kicked_[i] = with(after, double(velocity_[i].d));
-                               },
-                               numerics_.loop);
+        sum_over_neighbours<T>(
+            rows_, scale_, records_of(pressure_, velocity_), records_of(pressure_, velocity_), term,
+            [&](std::uint32_t i, const std::array<T, 3>& s) {
+                Vec3 push{s[0], s[1], s[2]};
+                if (const std::uint32_t k = wall_of_[i]; k != no_wall) push += force_by_wall_[k];
+                Vec3 gradient = -scale * push;
+                if (const double share = imposed_share_[i]; share > 0)
+                    gradient += share * (imposed_gradient(i) - gradient);
+                fluid.pressure_gradient[i] = gradient;
+                const Vec3 a = fluid.slow_acceleration[i] - specific_volume_[i] * gradient;
+                const Vec3 before = fluid.velocity[i], after = before + dt * a;
+                fluid.velocity[i] = after;
+                moved_[i] += 0.5 * dt * (before + after);
+                kicked_[i] = vector_record(after, velocity_[i].d);
+            },
+            numerics_.loop);
         std::swap(velocity_, kicked_);
     }
 
     /// In a buffer the pressure is a straight line along the axis, and so its gradient is known.       THEORY.md (11.7)
     Vec3 imposed_gradient(std::uint32_t i) const {
-        const OpenEnd& end = domain_.ends[std::size_t(std::abs(domain_.fluid.opening[i])) - 1];
+        const OpenEnd& end = end_of(domain_, i);
         return end.slope * end.normal;
     }
 
@@ -376,47 +328,23 @@ private:
         FluidParticles& fluid = domain_.fluid;
         const terms::RiemannCompression<T> term{{T(material_.density), T(material_.sound_speed)}};
         rate_by_wall_.resize(wall_rows_.member_count());
-        sum_over_neighbours<T>(wall_rows_, scale_, both(pressure_, velocity_), both(wall_pressure_, wall_velocity_), term,
-                               [&](std::uint32_t i, const std::array<T, 1>& s) { rate_by_wall_[wall_of_[i]] = double(s[0]); }, numerics_.loop);
+        sum_over_neighbours<T>(
+            wall_rows_, scale_, records_of(pressure_, velocity_), records_of(wall_pressure_, wall_velocity_), term,
+            [&](std::uint32_t i, const std::array<T, 1>& s) { rate_by_wall_[wall_of_[i]] = double(s[0]); },
+            numerics_.loop);
         const double c = material_.sound_speed, scale = kernel_.slope() * cell_ * scale_.unit;
-        sum_over_neighbours<T>(rows_, scale_, both(pressure_, velocity_), both(pressure_, velocity_), term,
-                               [&](std::uint32_t i, const std::array<T, 1>& s) {
-                                   double sum = double(s[0]);
-                                   if (const std::uint32_t k = wall_of_[i]; k != no_wall) sum += rate_by_wall_[k];
-                                   const double density_now = density_at_pressure(double(pressure_[i].d), material_.density, c);
-                                   // Pairs that approach have U* < U_L: the density grows.
-                                   const double rate = -c * c * density_now * scale * sum;
-                                   fluid.pressure[i] += 0.5 * dt * (fluid.pressure_rate[i] + rate);
-                                   fluid.pressure_rate[i] = rate;
-                               },
-                               numerics_.loop);
-    }
-
-    void impose_pressure(double time, double dt) {
-        if (domain_.ends.empty()) return;
-        for (OpenEnd& end : domain_.ends) measure_flow(end, domain_.fluid, numerics_.section_spread(), time);
-        if (update_ends) update_ends(domain_.ends, time, dt);
-        for (OpenEnd& end : domain_.ends) {
-            fit_pressure(end, material_.density * material_.sound_speed, [&](std::uint32_t i) { return double(pressure_[i].d); });
-            for (const auto& m : end.buffer) {
-                double& p = domain_.fluid.pressure[m.index];
-                const double wanted = end.mean_pressure + end.slope * m.s, predicted = double(pressure_[m.index].d);
-                pressure_[m.index].d = T(predicted + m.weight * (wanted - predicted));
-                p += m.weight * (wanted - p);
-                domain_.fluid.pressure_rate[m.index] *= 1 - m.weight;
-            }
-        }
-    }
-
-    void impose_velocity(double time) {
-        FluidParticles& fluid = domain_.fluid;
-        for (OpenEnd& end : domain_.ends)
-            for (const auto& m : end.buffer) {
-                Vec3& v = fluid.velocity[m.index];
-                if (end.kind == OpenEnd::Kind::velocity) v = end.velocity(fluid.position[m.index], time);
-                else if (end.undisturbed || dot(v, end.normal) < 0) v = dot(v, end.normal) * end.normal;
-                velocity_[m.index] = with(v, double(velocity_[m.index].d));
-            }
+        sum_over_neighbours<T>(
+            rows_, scale_, records_of(pressure_, velocity_), records_of(pressure_, velocity_), term,
+            [&](std::uint32_t i, const std::array<T, 1>& s) {
+                double sum = double(s[0]);
+                if (const std::uint32_t k = wall_of_[i]; k != no_wall) sum += rate_by_wall_[k];
+                const double density_now = density_at_pressure(double(pressure_[i].d), material_.density, c);
+                // Pairs that approach have U* < U_L: the density grows.
+                const double rate = -c * c * density_now * scale * sum;
+                fluid.pressure[i] += 0.5 * dt * (fluid.pressure_rate[i] + rate);
+                fluid.pressure_rate[i] = rate;
+            },
+            numerics_.loop);
     }
 
     /// With the blood, and by the transport velocity; the fields are carried along, as in the paper.
@@ -424,8 +352,6 @@ private:
         FluidParticles& fluid = domain_.fluid;
         for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] += moved_[i] + shift_[i]; });
     }
-
-    static constexpr std::uint32_t no_wall = UINT32_MAX;
 
     FlowDomain domain_;
     FluidMaterial material_;
@@ -436,22 +362,25 @@ private:
     LatticeSums lattice_;
     double acoustic_step_ = 0;
     Cells cells_, wall_cells_;
-    Neighbours rows_, wall_rows_, rows_of_wall_;                        // blood-blood, blood-wall, wall-blood
-    AlignedVector<Quad<T>> geometry_, pressure_, velocity_, kicked_;    // records: (x, mu), (x, p), (v, V) before and after
-    AlignedVector<Quad<T>> wall_pressure_, wall_velocity_;              // (x, p), (v, V)
-    std::vector<std::uint32_t> wall_of_;                                // member of wall_rows_, per particle
+    Neighbours rows_, wall_rows_, rows_of_wall_;             // blood-blood, blood-wall, wall-blood
+    AlignedVector<Quad<T>> geometry_, pressure_;             // records: (x, mu), (x, p)
+    AlignedVector<Quad<T>> velocity_, kicked_;               // (v, V) before and after a kick
+    AlignedVector<Quad<T>> wall_pressure_, wall_velocity_;   // (x, p), (v, V)
+    std::vector<std::uint32_t> wall_of_;                     // member of wall_rows_, per particle
     std::vector<Vec3> force_by_wall_;
     std::vector<double> rate_by_wall_;
     std::vector<double> imposed_share_, summed_share_, summed_density_, specific_volume_;
     std::vector<Vec3> shift_, moved_;
 };
 
-}  // namespace
+}   // namespace
 
-std::unique_ptr<FlowScheme> make_paper_scheme(Precision precision, const FlowDomain& domain, const FluidMaterial& material,
-                                              const FlowNumerics& numerics) {
-    if (precision == Precision::double_precision) return std::make_unique<PaperScheme<double>>(domain, material, numerics);
+std::unique_ptr<FlowScheme> make_paper_scheme(Precision precision, const FlowDomain& domain,
+                                              const FluidMaterial& material, const FlowNumerics& numerics) {
+    check_precision(precision, domain.frame);
+    if (precision == Precision::double_precision)
+        return std::make_unique<PaperScheme<double>>(domain, material, numerics);
     return std::make_unique<PaperScheme<float>>(domain, material, numerics);
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/schemes/ends.h"
+
+namespace patency {
+
+void measure_flows(const FlowDomain& domain, const FlowNumerics& numerics, double time) {
+    for (OpenEnd& end : domain.ends) measure_flow(end, domain.fluid, numerics.section_spread(), time);
+}
+
+template <class T>
+void impose_pressure(const FlowDomain& domain, const FluidMaterial& material, AlignedVector<Quad<T>>& records) {
+    FluidParticles& fluid = domain.fluid;
+    for (OpenEnd& end : domain.ends) {
+        fit_pressure(end, material.density * material.sound_speed,
+                     [&](std::uint32_t i) { return double(records[i].d); });
+        for (const auto& m : end.buffer) {
+            double& p = fluid.pressure[m.index];
+            const double wanted = end.mean_pressure + end.slope * m.s, predicted = double(records[m.index].d);
+            records[m.index].d = T(predicted + m.weight * (wanted - predicted));
+            p += m.weight * (wanted - p);
+            fluid.pressure_rate[m.index] *= 1 - m.weight;
+        }
+    }
+}
+
+template <class T>
+void impose_velocity(const FlowDomain& domain, double time, AlignedVector<Quad<T>>& records) {
+    FluidParticles& fluid = domain.fluid;
+    for (OpenEnd& end : domain.ends)
+        for (const auto& m : end.buffer) {
+            Vec3& v = fluid.velocity[m.index];
+            if (end.kind == OpenEnd::Kind::velocity)
+                v = end.velocity(fluid.position[m.index], time);
+            else if (end.undisturbed || dot(v, end.normal) < 0)
+                v = dot(v, end.normal) * end.normal;
+            records[m.index] = vector_record(v, records[m.index].d);
+        }
+}
+
+template void impose_pressure<float>(const FlowDomain&, const FluidMaterial&, AlignedVector<Quad<float>>&);
+template void impose_pressure<double>(const FlowDomain&, const FluidMaterial&, AlignedVector<Quad<double>>&);
+template void impose_velocity<float>(const FlowDomain&, double, AlignedVector<Quad<float>>&);
+template void impose_velocity<double>(const FlowDomain&, double, AlignedVector<Quad<double>>&);
+
+}   // namespace patency
