@@ -3,8 +3,8 @@
 
 namespace patency {
 
-void measure_flows(const FlowDomain& domain, const FlowNumerics& numerics, double time) {
-    for (OpenEnd& end : domain.ends) measure_flow(end, domain.fluid, numerics.section_spread(), time);
+void measure_flows(const FlowDomain& domain, double time) {
+    for (OpenEnd& end : domain.ends) measure_flow(end, domain.fluid, time);
 }
 
 template <class T>

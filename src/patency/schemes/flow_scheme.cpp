@@ -48,7 +48,7 @@ public:
             arrangement_.write_records();
             for (int pass = 0; pass < shift_passes; ++pass) arrangement_.shift_particles();
             find_members(domain_.fluid, numerics_.spacing, domain_.ends);
-            measure_flows(domain_, numerics_, time + report.dt);
+            measure_flows(domain_, time + report.dt);
             arrangement_.compute_moments();
             arrangement_.compute_corrections();
             write_records();
@@ -63,7 +63,7 @@ public:
                 kick(dt);
                 impose_velocity(domain_, time + report.dt + (k + 1) * dt, velocity_);
                 compress(dt);
-                measure_flows(domain_, numerics_, time + report.dt + (k + 1) * dt);
+                measure_flows(domain_, time + report.dt + (k + 1) * dt);
                 balance_volume();
             }
             move_particles();
@@ -179,7 +179,8 @@ private:
             viscous += double(wall_viscosity_[k][1]) * second;
         }
         const double upwind = numerics_.velocity_dissipation * speed * kernel_.slope() * numerics_.cell() * unit;
-        if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[18], sum[19], sum[20]};
+        // Beside a wall the gradients are of first order (5.1), and the wall damps the noise.
+        if (fluid.opening[i] == 0 && k == no_wall) viscous -= upwind * Vec3{sum[18], sum[19], sum[20]};
         fluid.slow_acceleration[i] = viscous + numerics_.body_force;
         fluid.velocity_gradient[i] = gradient;
         if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(gradient));
@@ -266,10 +267,15 @@ private:
     void balance_volume() {
         const FluidParticles& fluid = domain_.fluid;
         const auto inside = [&](std::size_t i) { return fluid.opening[i] == 0; };
-        const double count = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? 1.0 : 0.0; });
-        const double sum = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? divergence_[i] : 0.0; });
+        double count = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? 1.0 : 0.0; });
+        double sum = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? divergence_[i] : 0.0; });
         double outflow = 0;
-        for (const OpenEnd& end : domain_.ends) outflow += end.flow;
+        for (const OpenEnd& end : domain_.ends) {
+            outflow += end.flow;
+            if (end.imposed_flow) continue;
+            for (const auto& m : end.inside)   // beyond the section where the flow was measured
+                if (m.s > -end.section_depth) count -= 1, sum -= divergence_[m.index];
+        }
         domain_.fluid.excess_divergence = (sum - outflow / numerics_.cell()) / count;
     }
 

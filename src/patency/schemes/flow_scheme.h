@@ -33,8 +33,6 @@ struct FlowNumerics {
     WendlandC2 kernel() const { return {smoothing_ratio * spacing, planar}; }
     /// A particle's own space [m^d].
     double cell() const { return planar ? spacing * spacing : spacing * spacing * spacing; }
-    /// Mean square distance from the centre of a particle's share of a section, a square or a line [m^2].
-    double section_spread() const { return (planar ? 1 : 2) * spacing * spacing / 12; }
 };
 
 /// What one advection step did.

@@ -18,7 +18,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Opening round_opening(std::string name, const Vec3& centre, const Vec3& normal, double radius) {
-    return {std::move(name), centre, normal, pi * radius * radius, radius, radius, false};
+    return {std::move(name), centre, normal, pi * radius * radius, radius, radius, false, radius * radius / 2};
 }
 
 void expect_positive(const char* what, double value) {
@@ -101,7 +101,8 @@ Lumen make_box(const BoxShape& shape) {
         for (int high = 0; high < 2; ++high) {
             const Vec3 centre = 0.5 * size + along(k, (high ? 0.5 : -0.5) * component(size, k));
             lumen.openings.push_back({names[k][high], centre, along(k, high ? 1 : -1), area,
-                                      shape.planar ? 0.5 * area : std::sqrt(area / pi), reach, shape.planar});
+                                      shape.planar ? 0.5 * area : std::sqrt(area / pi), reach, shape.planar,
+                                      reach * reach / 3});   // of a rectangle, and of a line
         }
     }
     return lumen;

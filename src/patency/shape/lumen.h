@@ -21,6 +21,7 @@ struct Opening {
     double radius;    ///< equivalent, sqrt(area / pi) [m]; planar: half the width
     double reach;     ///< from the centre to the farthest point of the opening [m]
     bool planar;
+    double mean_square;   ///< mean over the opening of the squared distance from its centre [m^2]
 };
 
 /// A place seen from an opening.

@@ -70,7 +70,7 @@ Measures measure(const Lumen& whole, double resolution) {
     const auto cut_along = [&](const Vec3& axis, double period) {
         if (period <= 0) return;
         for (double side : {-1.0, 1.0})
-            lumen.openings.push_back({"", middle + 0.5 * side * period * axis, side * axis, 0, 0, norm(extent), false});
+            lumen.openings.push_back({"", middle + 0.5 * side * period * axis, side * axis, 0, 0, norm(extent), false, 0});
     };
     cut_along({1, 0, 0}, lumen.period.x);
     cut_along({0, 1, 0}, lumen.period.y);

@@ -75,6 +75,7 @@ void make_ends(Scene& scene) {
         end.centre = opening.centre;
         end.normal = opening.normal;
         end.area = opening.area;
+        end.mean_square = opening.mean_square;
         end.reach = opening.reach + dp;
         end.buffer_length = buffer_spacings * dp;
         if (law.prescribes_flow()) {
