@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Opening tube_inlet{"inlet", {0, 0, 0}, {-1, 0, 0}, std::numbers::pi * 4e-6, 2e-3, 2e-3, false};
-const Opening gap_inlet{"inlet", {0, 5e-4, 0}, {-1, 0, 0}, 1e-3, 5e-4, 5e-4, true};
+const Opening tube_inlet{"inlet", {0, 0, 0}, {-1, 0, 0}, std::numbers::pi * 4e-6, 2e-3, 2e-3, false, 2e-6};
+const Opening gap_inlet{"inlet", {0, 5e-4, 0}, {-1, 0, 0}, 1e-3, 5e-4, 5e-4, true, 1e-6 / 12};
 
 deck::Opening flow_opening(deck::VelocityProfile profile) {
     deck::Opening said;
