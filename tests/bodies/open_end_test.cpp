@@ -87,20 +87,20 @@ TEST(OpenEnd, FlowOfAUniformVelocityIsExact) {
     duct.find();
     const Vec3 v{0.3, 0.1, -0.2};
     std::fill(duct.fluid.velocity.begin(), duct.fluid.velocity.end(), v);
-    for (OpenEnd& end : duct.ends) measure_flow(end, duct.fluid, 0);
+    for (OpenEnd& end : duct.ends) measure_flow(end, duct.fluid, 0, 0);
     // A mean of equal numbers, rounded a few hundred times.
     EXPECT_NEAR(duct.ends[0].flow, -0.3 * side * side, 1e-14);
     EXPECT_NEAR(duct.ends[1].flow, 0.3 * side * side, 1e-14);
 }
 
-TEST(OpenEnd, FlowOfALinearVelocityIsThatTwoSpacingsBeforeThePlane) {
+TEST(OpenEnd, FlowOfALinearVelocityIsThatAtThePlane) {
     Duct duct;
     duct.find();
     for (std::size_t i = 0; i < duct.fluid.size(); ++i) {
         const Vec3 x = duct.fluid.position[i];
-        duct.fluid.velocity[i] = {1 + 0.5 * (x.x - (length - 2 * spacing)) + 2 * x.y, x.z, 0};
+        duct.fluid.velocity[i] = {1 + 0.5 * (x.x - length) + 2 * x.y, x.z, 0};
     }
-    measure_flow(duct.ends[1], duct.fluid, 0);
+    measure_flow(duct.ends[1], duct.fluid, 0, 0);
     EXPECT_NEAR(duct.ends[1].flow, side * side, 1e-14);   // the lattice is even about the plane and the axis
 }
 
@@ -112,16 +112,30 @@ TEST(OpenEnd, FlowOfAParabolaIsExact) {                                         
         const Vec3 x = duct.fluid.position[i];
         duct.fluid.velocity[i] = {a - b * (x.y * x.y + x.z * x.z), 0, 0};
     }
-    measure_flow(duct.ends[1], duct.fluid, 0);
+    measure_flow(duct.ends[1], duct.fluid, 0, 0);
     // The integral over the square: the mean of y^2 + z^2 is side^2/6. Of the particles' centres it would be less.
     EXPECT_NEAR(duct.ends[1].flow, side * side * (a - b * side * side / 6), 1e-12 * side * side);
+}
+
+TEST(OpenEnd, WhatABufferMakesOfTheFlowIsLearntAndTakenOff) {                                      // THEORY.md (8.10)
+    Duct duct;
+    duct.find();
+    OpenEnd& end = duct.ends[1];
+    for (std::size_t i = 0; i < duct.fluid.size(); ++i) duct.fluid.velocity[i] = {duct.fluid.opening[i] == 2 ? 0.9 : 1.0, 0, 0};
+    measure_flow(end, duct.fluid, 0, 0);
+    EXPECT_NEAR(end.flow, 0.95 * side * side, 1e-12);   // half of the particles are the buffer's
+    for (int k = 0; k < 100; ++k) measure_flow(end, duct.fluid, 0, 0.1);
+    EXPECT_NEAR(end.flow, side * side, 1e-5);   // 0.9^100 of the 5 % are left
+    for (auto& v : duct.fluid.velocity) v.x += 1;   // a knock is seen at once
+    measure_flow(end, duct.fluid, 0, 0);
+    EXPECT_NEAR(end.flow, 2 * side * side, 1e-5);
 }
 
 TEST(OpenEnd, AnImposedFlowIsTakenAtItsWord) {
     Duct duct;
     duct.find();
     duct.ends[0].imposed_flow = [](double t) { return -3 * t; };
-    measure_flow(duct.ends[0], duct.fluid, 2);
+    measure_flow(duct.ends[0], duct.fluid, 2, 0);
     EXPECT_EQ(duct.ends[0].flow, -6);
 }
 

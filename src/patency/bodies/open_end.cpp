@@ -10,8 +10,7 @@
 namespace patency {
 
 namespace {
-// How far inside the pressure is fitted, and how thick the slab is in which the flow is measured, in spacings. The slab ends at
-// the plane: in the buffer of a pressure end the blood is half a per cent slower.
+// How far inside the pressure is fitted, and how thick the slab is in which the flow is measured, in spacings.
 constexpr double fit_depth = 4;
 constexpr double slab_half_width = 2;
 // Over how many spacings beyond the plane the imposed pressure takes over. A particle that crosses the plane is not
@@ -52,7 +51,7 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
         end.buffer.clear();
         end.inside.clear();
         end.section.clear();
-        end.section_depth = slab_half_width * spacing;
+        end.section_depth = 0.5 * fit_depth * spacing;
     }
     if (ends.empty()) return;
     const auto& x = fluid.position;
@@ -79,8 +78,8 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
                     const double share = std::max(0.0, -s / (fit_depth * spacing));
                     end.inside.push_back({i, s, share * (1 - share) * fluid.volume[i]});
                 }
-                const double hat = 1 - std::abs(s + end.section_depth) / (slab_half_width * spacing);
-                if (!member && hat > 0) end.section.push_back({i, s, hat * fluid.volume[i]});
+                const double hat = 1 - std::abs(s) / (slab_half_width * spacing);
+                if (hat > 0) end.section.push_back({i, s, hat * fluid.volume[i]});
             }
 }
 
@@ -105,14 +104,12 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
     end.slope = wss > 0 ? (wsp - end.mean_pressure * ws) / wss : 0;
 }
 
-void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t) {
-    if (end.imposed_flow) {
-        end.flow = end.imposed_flow(t);
-        return;
-    }
-    // The profile's mean curvature: the slope of the velocity over the square of the distance from the axis.
+namespace {
+
+/// Area times the mean velocity over the section, from particles that stand anywhere in it.            THEORY.md (8.9)
+double flow_of(const OpenEnd& end, const FluidParticles& fluid, std::span<const OpenEnd::Member> members) {
     double w = 0, wq = 0, wqq = 0, wv = 0, wqv = 0;
-    for (const auto& m : end.section) {
+    for (const auto& m : members) {
         const Vec3 d = fluid.position[m.index] - end.centre;
         const double q = dot(d, d) - m.s * m.s, v = dot(fluid.velocity[m.index], end.normal);
         w += m.weight, wq += m.weight * q, wqq += m.weight * q * q;
@@ -120,7 +117,19 @@ void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t) {
     }
     const double det = w * wqq - wq * wq;
     const double curvature = det > 0 ? (w * wqv - wq * wv) / det : 0;
-    end.flow = w > 0 ? end.area * (wv / w + curvature * (end.mean_square - wq / w)) : 0;
+    return w > 0 ? end.area * (wv / w + curvature * (end.mean_square - wq / w)) : 0;
+}
+
+}  // namespace
+
+void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share) {
+    if (end.imposed_flow) {
+        end.flow = end.imposed_flow(t);
+        return;
+    }
+    const double at_plane = flow_of(end, fluid, end.section);
+    if (share > 0) end.flow_excess += share * (at_plane - flow_of(end, fluid, end.inside) - end.flow_excess);
+    end.flow = at_plane - end.flow_excess;
 }
 
 void exchange_particles(FluidParticles& fluid, double spacing, double tail, std::span<OpenEnd> ends) {

@@ -37,6 +37,7 @@ struct OpenEnd {
     /// At the plane in the last acoustic step: flow out of the domain, imposed or measured [m^3/s], mean pressure there
     /// [Pa], and its slope along the normal [Pa/m].
     double flow = 0, mean_pressure = 0, slope = 0;
+    double flow_excess = 0;   ///< what the particles at the plane make of the flow beyond those inside, in the mean [m^3/s]
     /// Audit: particles and volume that have crossed the plane outwards less inwards since the start.
     std::int64_t crossed = 0;
     double crossed_volume = 0;
@@ -56,7 +57,7 @@ struct OpenEnd {
         double weight;   ///< for averages over the section
     };
     std::vector<Member> buffer, inside, section;
-    double section_depth = 0;   ///< how far before the plane the section is in which the flow is measured [m]
+    double section_depth = 0;   ///< how far before the plane the middle of `inside` lies [m]
 };
 
 /// Sorts the particles near every end into its lists.
@@ -69,9 +70,12 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
 /// `impedance` is rho c of the blood [Pa s/m].
 void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std::uint32_t)>& pressure);
 
-/// The flow through the plane at time t: what is imposed, or else from the particles before it. Their mean alone is that of
+/// The flow through the plane at time t: what is imposed, or else from the particles around it. Their mean alone is that of
 /// where they stand: 1 % too large in a pipe at D/12. A fitted parabola turns it into that over the section. THEORY.md (8.9)
-void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t);
+/// An outlet model must see the flow at the plane at once, but half of the particles there are the buffer's, a few per
+/// thousand off; what they differ in the mean from those just inside is taken off: `share` is how much of it is learnt now.
+///                                                                                              THEORY.md (8.10)
+void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share);
 
 /// Lets particles cross planes, copies those that enter, removes those at the far ends, and renews the tails: copies of
 /// a buffer's first particles (up to `tail` [m] beyond the plane) behind its last ones. New particles are ordered by

@@ -15,7 +15,8 @@ inline const OpenEnd& end_of(const FlowDomain& domain, std::size_t i) {
     return domain.ends[std::size_t(std::abs(domain.fluid.opening[i])) - 1];
 }
 
-void measure_flows(const FlowDomain& domain, double time);
+/// After a step of dt [s], or 0 where particles were exchanged or moved.
+void measure_flows(const FlowDomain& domain, const FlowNumerics& numerics, double time, double dt);
 
 /// Leads the pressures of buffers, and what `records` (x, p) say of them, to the straight line of their end.
 template <class T>

@@ -48,7 +48,7 @@ public:
             arrangement_.write_records();
             for (int pass = 0; pass < shift_passes; ++pass) arrangement_.shift_particles();
             find_members(domain_.fluid, numerics_.spacing, domain_.ends);
-            measure_flows(domain_, time + report.dt);
+            measure_flows(domain_, numerics_, time + report.dt, 0);
             arrangement_.compute_moments();
             arrangement_.compute_corrections();
             write_records();
@@ -63,7 +63,7 @@ public:
                 kick(dt);
                 impose_velocity(domain_, time + report.dt + (k + 1) * dt, velocity_);
                 compress(dt);
-                measure_flows(domain_, time + report.dt + (k + 1) * dt);
+                measure_flows(domain_, numerics_, time + report.dt + (k + 1) * dt, dt);
                 balance_volume();
             }
             move_particles();
@@ -273,7 +273,7 @@ private:
         for (const OpenEnd& end : domain_.ends) {
             outflow += end.flow;
             if (end.imposed_flow) continue;
-            for (const auto& m : end.inside)   // beyond the section where the flow was measured
+            for (const auto& m : end.inside)   // beyond where the mean flow is taken from
                 if (m.s > -end.section_depth) count -= 1, sum -= divergence_[m.index];
         }
         domain_.fluid.excess_divergence = (sum - outflow / numerics_.cell()) / count;

@@ -70,7 +70,7 @@ public:
             const double start = k * acoustic_step_;
             const double dt = std::min(acoustic_step_, report.dt - start);   // the last one is clipped
             advance_pressure(dt);
-            measure_flows(domain_, time + start);
+            measure_flows(domain_, numerics_, time + start, 0);
             update_wanted_pressures(domain_.ends, time + start, dt);
             impose_pressure(domain_, material_, pressure_);
             compute_wall_pressure();
