@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -104,11 +105,15 @@ vtkNew<vtkIntArray> make_integers(const std::string& name, std::span<const std::
     return array;
 }
 
-void add_unit(vtkPolyData& data, const std::string& name, const std::string& unit) {
+void add_text(vtkPolyData& data, const std::string& name, const std::string& text) {
     vtkNew<vtkStringArray> array;
-    array->SetName((name + "_unit").c_str());
-    array->InsertNextValue(unit);
+    array->SetName(name.c_str());
+    array->InsertNextValue(text);
     data.GetFieldData()->AddArray(array);
+}
+
+void add_unit(vtkPolyData& data, const std::string& name, const std::string& unit) {
+    add_text(data, name + "_unit", unit);
 }
 
 void set_points(vtkPolyData& data, const Rows& places, const Target& target) {
@@ -211,6 +216,11 @@ void write_polydata(const std::filesystem::path& path, const PolyData& source, c
     for (const auto& triangle : source.triangles) add_cell(*triangles, triangle);
     data->SetLines(lines);
     data->SetPolys(triangles);
+    if (!source.space.empty()) add_text(*data, "SPACE", source.space);
+    if (!source.face_ids.empty()) {
+        assert(source.lines.empty() && source.face_ids.size() == source.triangles.size() && "one id per triangle");
+        data->GetCellData()->AddArray(make_integers("ModelFaceID", std::as_bytes(std::span(source.face_ids)), {}));
+    }
     for (const PointArray& array : source.arrays) {
         assert(array.values.size() == source.points.size() * std::size_t(array.components) && "one value per point");
         const std::string name = vtk_name(array.name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles, points, lines and triangles as VTK PolyData files (.vtp) that ParaView, 3D Slicer and
 // SimVascular open: coordinates in mm, fields in SI as 32-bit floats, each array's unit in FieldData
-// as NAME_unit, arrays named as peers name them. Writes only; surfaces are read by shape/.
+// as NAME_unit, arrays named as peers name them. Writes only; surfaces are read in surface_file.h.
 #pragma once
 
 #include <array>
@@ -48,6 +48,8 @@ struct PolyData {
     std::vector<std::vector<std::uint32_t>> lines{};
     std::vector<std::array<std::uint32_t, 3>> triangles{};
     std::vector<PointArray> arrays{};
+    std::vector<std::int32_t> face_ids{};   ///< one per triangle, without lines beside them; the cell array ModelFaceID
+    std::string space{};                    ///< "LPS" or "RAS": the mark SPACE that 3D Slicer looks for
 };
 
 /// Profiles, centrelines, surfaces, offenders. `options.fields`, `only` and `pressure_level` do not
