@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
     CLI::App program("Blood flow in a coronary artery by particle methods. Not a medical device.", "patency");
     program.require_subcommand(1);
     app::add_check_command(program, exit_code);
+    app::add_inspect_command(program, exit_code);
     app::add_flow_command(program, exit_code);
     app::add_verify_command(program, exit_code);
     app::add_bench_command(program, exit_code);

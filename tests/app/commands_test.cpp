@@ -5,34 +5,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "tests/app/program.h"
 #include "tests/stages/decks.h"
 
 namespace patency {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Result {
-    int exit_code;
-    std::string output;
-};
-Result patency(const std::string& arguments) {
-    const std::string command = fmt::format("'{}' {} 2>&1", PATENCY_BINARY, arguments);
-    std::FILE* pipe = popen(command.c_str(), "r");
-    Result result{-1, {}};
-    std::array<char, 4096> chunk;
-    while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), pipe)) result.output.append(chunk.data(), n);
-    const int status = pclose(pipe);
-    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return result;
-}
 
 std::string content(const fs::path& path) {
     std::ifstream file(path);

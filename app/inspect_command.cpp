@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency inspect: what a surface is as a vessel. A table on the terminal; with -o the cleaned surface, what was found
+// wrong with it, figures and a picture.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "patency/base/units.h"
+#include "patency/io/atomic_file.h"
+#include "patency/io/output_folder.h"
+#include "patency/io/summary.h"
+#include "patency/io/surface_file.h"
+#include "patency/io/surface_picture.h"
+#include "patency/io/vtp.h"
+#include "patency/shape/surface_check.h"
+#include "patency/shape/surface_openings.h"
+
+namespace patency::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct InspectOptions {
+    std::string path, unit, space, out, inlet;
+};
+
+struct Inspection {
+    std::size_t triangles_read;
+    CheckedSurface checked;
+    std::vector<SurfaceOpening> openings;
+
+    double wall_area() const {   // what closes an end is no wall
+        double sum = area(checked.surface);
+        for (const SurfaceOpening& opening : openings)
+            if (!opening.triangles.empty()) sum -= opening.opening.area;
+        return sum;
+    }
+};
+
+Inspection inspect(const InspectOptions& o) {
+    Surface surface = read_surface(o.path, o.unit, o.space);
+    Inspection result{surface.triangles.size(), check_surface(std::move(surface)), {}};
+    result.openings = find_openings(result.checked);
+    for (Finding& finding : find_missing_openings(result.openings))
+        result.checked.findings.push_back(std::move(finding));
+    if (!o.inlet.empty()) choose_inlet(result.openings, o.inlet);
+    return result;
+}
+
+void print_table(const InspectOptions& o, const Inspection& r) {
+    const Surface& surface = r.checked.surface;
+    const Bounds box = bounds(surface);
+    fmt::print("{} (unit {}{})\n", o.path, o.unit, surface.space.empty() ? "" : ", axes " + surface.space);
+    fmt::print("  triangles   {} read, {} kept; {} points\n", r.triangles_read, surface.triangles.size(),
+               surface.points.size());
+    for (const auto& [axis, low, high] :
+         {std::tuple("x", box.low.x, box.high.x), {"y", box.low.y, box.high.y}, {"z", box.low.z, box.high.z}})
+        fmt::print("  {}           {:.3f} to {:.3f} mm\n", axis, 1e3 * low, 1e3 * high);
+    fmt::print("  wall area   {:.5g} mm^2\n  volume      {:.5g} mm^3\n", 1e6 * r.wall_area(), 1e9 * r.checked.volume);
+    fmt::print("Findings: {}\n", r.checked.findings.empty() ? "none" : "");
+    for (const Finding& finding : r.checked.findings)
+        fmt::print("  {:<9} {:<20} {}\n", word_of(finding.verdict), finding.kind, finding.sentence);
+    fmt::print("Openings: {}\n", r.openings.empty() ? "none" : "");
+    if (!r.openings.empty())
+        fmt::print("   # {:<11} {:>11} {:>11} {:>32}   {:<24} {}\n", "name", "diameter mm", "area mm^2", "centre mm",
+                   "outward normal", "face");
+    for (std::size_t k = 0; k < r.openings.size(); ++k) {
+        const Opening& opening = r.openings[k].opening;
+        const Vec3 c = 1e3 * opening.centre, n = opening.normal;
+        fmt::print(
+            "  {:>2} {:<11} {:>11.3f} {:>11.4g} {:>10.3f} {:>10.3f} {:>10.3f}   {:>7.3f} {:>7.3f} {:>7.3f}  {}\n",
+            k + 1, opening.name, 2e3 * opening.radius, 1e6 * opening.area, c.x, c.y, c.z, n.x, n.y, n.z,
+            r.openings[k].face_id             ? std::to_string(*r.openings[k].face_id)
+            : r.openings[k].triangles.empty() ? "open"
+                                              : "flat");
+    }
+}
+
+Json scaled(const Vec3& x, double factor) { return {factor * x.x, factor * x.y, factor * x.z}; }
+
+Json as_json(const InspectOptions& o, const Inspection& r) {
+    const Surface& surface = r.checked.surface;
+    const Bounds box = bounds(surface);
+    Json json{{"file", fs::path(o.path).filename().string()},
+              {"unit", o.unit},
+              {"space", surface.space.empty() ? Json() : Json(surface.space)}};
+    json["triangles_read"] = r.triangles_read;
+    json["triangles"] = surface.triangles.size();
+    json["points"] = surface.points.size();
+    json["low_mm"] = scaled(box.low, 1e3);
+    json["high_mm"] = scaled(box.high, 1e3);
+    json["wall_area_mm2"] = 1e6 * r.wall_area();
+    json["volume_mm3"] = 1e9 * r.checked.volume;
+    json["usable"] = refusals(r.checked.findings).empty();
+    json["findings"] = Json::array();
+    for (const Finding& f : r.checked.findings)
+        json["findings"].push_back({{"kind", f.kind},
+                                    {"verdict", word_of(f.verdict)},
+                                    {"count", f.count},
+                                    {"place_mm", scaled(f.place, 1e3)},
+                                    {"size_mm", 1e3 * f.size},
+                                    {"sentence", f.sentence}});
+    json["openings"] = Json::object();
+    for (const SurfaceOpening& opening : r.openings)
+        json["openings"][opening.opening.name] = {{"diameter_mm", 2e3 * opening.opening.radius},
+                                                  {"area_mm2", 1e6 * opening.opening.area},
+                                                  {"perimeter_mm", 1e3 * opening.perimeter},
+                                                  {"flatness_error_mm", 1e3 * opening.flatness},
+                                                  {"centre_mm", scaled(opening.opening.centre, 1e3)},
+                                                  {"normal", scaled(opening.opening.normal, 1)},
+                                                  {"model_face_id", opening.face_id ? Json(*opening.face_id) : Json()}};
+    return json;
+}
+
+void write_results(const InspectOptions& o, const Inspection& r) {
+    const OutputFolder folder(o.out);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.root()))   // of an earlier surface
+        if (entry.path().filename().string().starts_with("finding_")) fs::remove(entry.path());
+    write_surface(folder.file("surface.vtp"), r.checked.surface);
+    for (const Finding& f : r.checked.findings)
+        if (!f.shown.points.empty())
+            write_polydata(
+                folder.file(fmt::format("finding_{}.vtp", f.kind)),
+                {.points = f.shown.points, .lines = f.lines, .triangles = f.shown.triangles, .space = f.shown.space});
+    write_summary(folder.file("inspect.json"), as_json(o, r));
+    write_file(folder.file("inspect.svg"),
+               draw_surface(r.checked.surface, r.openings, fs::path(o.path).filename().string()));
+}
+
+void run(const InspectOptions& o) {
+    const Inspection result = inspect(o);
+    print_table(o, result);
+    if (!o.out.empty()) write_results(o, result);
+    if (!result.openings.empty())
+        expect_vessel_size(result.openings[0], o.unit);   // first: in a wrong unit the rest means little
+    if (const std::string why = refusals(result.checked.findings); !why.empty())
+        throw GeometryError(fmt::format("the surface '{}' cannot be used yet:\n{}", o.path, why));
+}
+
+}   // namespace
+
+void add_inspect_command(CLI::App& program, ExitCode&) {
+    CLI::App* command =
+        program.add_subcommand("inspect", "say what a surface is as a vessel: openings, sizes, defects, a picture");
+    const auto o = std::make_shared<InspectOptions>();
+    command->add_option("surface", o->path, "the surface: STL, VTP, PLY, OBJ or legacy VTK")->required();
+    command->add_option("--unit", o->unit, "of its coordinates, which the file does not say: m, cm, mm or um")
+        ->required();
+    command->add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
+    command->add_option("-o,--out", o->out,
+                        "a folder for the cleaned surface, the findings, the figures and a picture");
+    command->add_option("--inlet", o->inlet,
+                        "the opening that is the inlet, by name or number; the largest if not given");
+    command->callback([o] { run(*o); });
+}
+
+}   // namespace patency::app

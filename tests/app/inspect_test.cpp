@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency inspect from outside: exit codes, what it says and writes; and the vessels that others published.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "patency/io/summary.h"
+#include "patency/io/surface_file.h"
+#include "tests/app/program.h"
+#include "tests/io/scratch_folder.h"
+#include "tests/shape/surfaces.h"
+
+namespace patency {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Inspect : public ::testing::Test {
+protected:
+    std::string write(const Surface& surface, const char* name = "vessel.vtp") {
+        write_surface(folder_ / name, surface);
+        return (folder_ / name).string();
+    }
+    std::string out() const { return (folder_ / "out").string(); }
+    nlohmann::ordered_json figures() const { return read_summary(folder_ / "out/inspect.json"); }
+    ScratchFolder folder_;
+};
+
+TEST_F(Inspect, ASoundTubeIs0) {
+    const Result result = patency(
+        fmt::format("inspect {} --unit mm -o {}", write(make_tube_mesh({.start_cap = true, .end_cap = true})), out()));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    for (const char* word : {"inlet", "outlet_1", "wall area", "volume", "Findings: none"})
+        EXPECT_TRUE(has(result.output, word));
+    const auto json = figures();
+    EXPECT_NEAR(json["volume_mm3"].get<double>(), 6 * M_PI, 0.01 * 6 * M_PI);
+    EXPECT_NEAR(json["wall_area_mm2"].get<double>(), 12 * M_PI, 0.01 * 12 * M_PI);
+    EXPECT_NEAR(json["openings"]["inlet"]["diameter_mm"].get<double>(), 2, 0.02);
+    EXPECT_EQ(json["usable"], true);
+    const std::string svg = contents_of(folder_ / "out/inspect.svg");
+    EXPECT_TRUE(has(svg, "outlet_1  2.00 mm"));
+    EXPECT_TRUE(has(svg, "</svg>"));
+    EXPECT_EQ(svg.find("nan"), svg.npos);
+    EXPECT_NEAR(volume(read_surface(folder_ / "out/surface.vtp", "mm")), 6e-9 * M_PI, 0.06e-9 * M_PI);
+}
+
+TEST_F(Inspect, DefectsAre4AndAreWritten) {
+    Surface tube = make_tube_mesh({});
+    tube.triangles.erase(tube.triangles.begin() + 1000);
+    tube.face_ids.clear();
+    const Result result = patency(fmt::format("inspect {} --unit mm -o {}", write(tube), out()));
+    EXPECT_EQ(result.exit_code, 4) << result.output;
+    EXPECT_TRUE(has(result.output, "refused   holes"));
+    EXPECT_TRUE(fs::exists(folder_ / "out/finding_holes.vtp"));
+    EXPECT_EQ(figures()["usable"], false);
+    EXPECT_EQ(patency(fmt::format("inspect {} --unit mm -o {}", write(make_tube_mesh({})), out())).exit_code, 0);
+    EXPECT_FALSE(fs::exists(folder_ / "out/finding_holes.vtp"));   // of the earlier surface
+    EXPECT_EQ(patency("inspect --unit mm " + write(make_tube_mesh({.start_cap = true, .round_end = true}))).exit_code,
+              4);
+}
+
+TEST_F(Inspect, AWrongUnitIs4WithAQuestion) {
+    const Result result = patency("inspect --unit m " + write(make_tube_mesh({})));
+    EXPECT_EQ(result.exit_code, 4);
+    EXPECT_TRUE(has(result.output, "Did you mean"));
+    EXPECT_TRUE(has(result.output, "--unit mm (2 mm)"));
+    EXPECT_EQ(patency("inspect --unit inch " + write(make_tube_mesh({}))).exit_code, 2);
+    EXPECT_EQ(patency("inspect " + write(make_tube_mesh({}))).exit_code, 2);
+}
+
+TEST_F(Inspect, TheInletIsTheUsers) {
+    Surface cone = make_tube_mesh({});
+    for (Vec3& x : cone.points) x.y *= 1 - 50 * x.x, x.z *= 1 - 50 * x.x;
+    const std::string file = write(cone);
+    EXPECT_EQ(patency(fmt::format("inspect {} --unit mm -o {} --inlet outlet_1", file, out())).exit_code, 0);
+    EXPECT_NEAR(figures()["openings"]["inlet"]["diameter_mm"].get<double>(), 1.4, 0.014);
+    EXPECT_EQ(patency(fmt::format("inspect {} --unit mm --inlet 2", file)).exit_code, 0);
+    EXPECT_EQ(patency(fmt::format("inspect {} --unit mm --inlet 3", file)).exit_code, 2);
+}
+
+TEST_F(Inspect, AMarkOfAxesIsCarried) {
+    const std::string file = write(make_tube_mesh({}));
+    EXPECT_EQ(patency(fmt::format("inspect {} --unit mm --space LPS -o {}", file, out())).exit_code, 0);
+    EXPECT_EQ(read_surface(folder_ / "out/surface.vtp", "mm").space, "LPS");
+    EXPECT_EQ(patency("inspect --unit mm --space XYZ " + file).exit_code, 2);
+}
+
+TEST_F(Inspect, FilesThatCannotBeReadAre7) {
+    EXPECT_EQ(patency("inspect --unit mm " + (folder_ / "none.stl").string()).exit_code, 7);
+    put(folder_ / "bad.vtp", "<VTKFile type=\"PolyData\"><Poly");
+    const Result result = patency("inspect --unit mm " + (folder_ / "bad.vtp").string());
+    EXPECT_EQ(result.exit_code, 7);
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1)
+        << result.output;   // ours and nothing of VTK's
+}
+
+/// Published vessels: not in the project (../shared/data/INDEX.md says why), diameters as measured there.
+struct Vessel {
+    const char *file, *unit;
+    std::vector<double> diameters;   ///< mm, falling
+};
+void PrintTo(const Vessel& vessel, std::ostream* out) { *out << vessel.file; }
+
+fs::path vessels() { return fs::path(PATENCY_SOURCE_DIR) / "../shared/data/vessels"; }
+
+class Vessels : public Inspect, public ::testing::WithParamInterface<Vessel> {};
+TEST_P(Vessels, HaveTheOpeningsThatWereMeasured) {
+    const Vessel& vessel = GetParam();
+    if (!fs::exists(vessels())) GTEST_SKIP() << "no " << vessels();
+    const Result result =
+        patency(fmt::format("inspect {} --unit {} -o {}", (vessels() / vessel.file).string(), vessel.unit, out()));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    const auto openings = figures()["openings"];
+    ASSERT_EQ(openings.size(), vessel.diameters.size()) << result.output;
+    std::size_t next = 0;
+    for (const auto& [name, opening] : openings.items()) {
+        EXPECT_EQ(name, next == 0 ? "inlet" : fmt::format("outlet_{}", next));
+        EXPECT_NEAR(opening["diameter_mm"].get<double>(), vessel.diameters[next], 0.03 * vessel.diameters[next]);
+        ++next;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Published, Vessels,
+    ::testing::Values(Vessel{"coronary_LCA_stenosed_m1.stl", "mm", {4.562, 1.361, 1.205, 1.140, 1.140, 0.867, 0.717}},
+                      Vessel{"coronary_phantom_7openings.stl", "mm", {6.194, 3.932, 3.932, 3.932, 3.932, 3.932, 3.932}},
+                      Vessel{"internal_carotid_C0015mod.vtp", "mm", {3.119, 2.592, 1.800}},
+                      Vessel{"aortoiliac_vmtk_open_ends.stl", "mm", {15.37, 8.821, 8.737}},
+                      Vessel{"aortoiliac_simvascular_capped.vtp", "cm", {24.25, 11.13, 10.01}},
+                      Vessel{"ideal_Y_bifurcation.stl", "mm", {1.994, 1.994, 1.994}}));
+
+TEST_F(Inspect, TheDirtyVesselIsRefusedWithItsDefects) {
+    if (!fs::exists(vessels())) GTEST_SKIP() << "no " << vessels();
+    const Result result = patency(fmt::format("inspect {} --unit m -o {}",
+                                              (vessels() / "DIRTY_cerebral_aneurysm_small_holes.stl").string(), out()));
+    EXPECT_EQ(result.exit_code, 4) << result.output;
+    EXPECT_TRUE(has(result.output, "refused   holes"));
+    EXPECT_TRUE(has(result.output, "edges belong to more than two triangles"));
+}
+
+TEST_F(Inspect, AHundredAndFortyThousandTrianglesTakeLessThanTenSeconds) {
+    const std::string file = write(make_torus_mesh(4e-3, 1e-3, 500, 140));
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(patency(fmt::format("inspect {} --unit mm -o {}", file, out())).exit_code, 4);   // a ring has no opening
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
+}
+
+}   // namespace
+}   // namespace patency
