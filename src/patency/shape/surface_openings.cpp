@@ -109,7 +109,8 @@ SurfaceOpening make_opening(const FlatLoop& loop) {
                         .area = loop.area,
                         .radius = 0.5 * loop.diameter(),
                         .reach = loop.reach,
-                        .planar = false},
+                        .planar = false,
+                        .mean_square = loop.area / (2 * std::numbers::pi)},   // of a disc of that area
             .perimeter = loop.perimeter,
             .flatness = loop.flatness};
 }
