@@ -87,7 +87,7 @@ private:
         for_each_index(n, [&](std::size_t i) {
             velocity_[i] = vector_record(fluid.velocity[i], T(fluid.viscosity[i] / material_.viscosity));
             const Mat3 g = arrangement_.unit() * fluid.velocity_gradient[i];
-            gradient_[0][i] = vector_record(g.x, T(0));
+            gradient_[0][i] = vector_record(g.x, T(arrangement_.wall_of(i) == no_wall ? 1 : 0));   // who dissipates
             gradient_[1][i] = vector_record(g.y, T(0));
             gradient_[2][i] = vector_record(g.z, T(0));
         });
@@ -179,8 +179,7 @@ private:
             viscous += double(wall_viscosity_[k][1]) * second;
         }
         const double upwind = numerics_.velocity_dissipation * speed * kernel_.slope() * numerics_.cell() * unit;
-        // Beside a wall the gradients are of first order (5.1), and the wall damps the noise.
-        if (fluid.opening[i] == 0 && k == no_wall) viscous -= upwind * Vec3{sum[18], sum[19], sum[20]};
+        if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[18], sum[19], sum[20]};
         fluid.slow_acceleration[i] = viscous + numerics_.body_force;
         fluid.velocity_gradient[i] = gradient;
         if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(gradient));
@@ -266,6 +265,12 @@ private:
     ///                                                                                            THEORY.md (4.10)
     void balance_volume() {
         const FluidParticles& fluid = domain_.fluid;
+        if (domain_.ends.empty()) {   // nothing comes or goes: the mean pressure stays, whatever else changes it
+            const double sum = sum_of(fluid.size(), [&](std::size_t i) { return fluid.pressure_rate[i]; });
+            const double stiffness = material_.density * material_.sound_speed * material_.sound_speed;
+            domain_.fluid.excess_divergence -= sum / (double(fluid.size()) * stiffness);
+            return;
+        }
         const auto inside = [&](std::size_t i) { return fluid.opening[i] == 0; };
         double count = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? 1.0 : 0.0; });
         double sum = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? divergence_[i] : 0.0; });

@@ -114,7 +114,7 @@ PATENCY_INLINE P laplacian_weight(const Pair<P>& pair, const Quads<P>& diagonal,
 }
 
 /// What the slow terms need over the own body. Extra quads: (v, mu), the rows of the velocity gradient L in the loop's unit
-/// of length, (L_x, .), (L_y, .), (L_z, .); of i also A (xx, yy, zz, .) and (xy, xz, yz, .).
+/// of length, (L_x, 1 or 0 for who dissipates), (L_y, .), (L_z, .); of i also A (xx, yy, zz, .) and (xy, xz, yz, .).
 ///   0-8   sum w (v_i - v_j) d, by rows          9-11  sum wA mu (v_j - v_i)
 ///   12-14 sum wA mu d                           15-17 sum w (mu_i - mu_j) d
 ///   18-20 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
@@ -138,7 +138,7 @@ struct Viscosity {
             const Quads<P>&gi = i.extra[row], &gj = j.extra[row];
             return P(0.5f) * fma(gi.a + gj.a, pair.d.x, fma(gi.b + gj.b, pair.d.y, (gi.c + gj.c) * pair.d.z));
         };
-        const P wr = w * pair.r;
+        const P wr = w * pair.r * (i.extra[1].d * j.extra[1].d);
         sum[18] = fma(wr, u - explained(1), sum[18]);
         sum[19] = fma(wr, v - explained(2), sum[19]);
         sum[20] = fma(wr, q - explained(3), sum[20]);
