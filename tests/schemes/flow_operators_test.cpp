@@ -149,7 +149,7 @@ TEST_P(Operators, DissipationTakesTheEnergyOfNoise) {
     }
     // Noise has no mean among the neighbours, so its rate is U times the sum of V |W'|: 8 pi int W r dr = 2.5/h in space, 2.8/h
     // in the plane for a whole neighbourhood; half of the block is border.
-    const double h = flow.numerics.smoothing_ratio * dp, rate = -power / energy * h / flow.numerics.reference_speed;
+    const double h = flow.numerics.smoothing_ratio * dp, rate = -power / energy * h / (flow.numerics.velocity_dissipation * flow.numerics.reference_speed);
     EXPECT_GT(rate, 1.5);
     EXPECT_LT(rate, 3.0);
 }
