@@ -121,7 +121,7 @@ TEST(FlowRecorder, rows_of_waveforms_add_up_to_what_flowed) {
     };
     advance(*scene, {.until = 0.01, .observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s); }});
     EXPECT_NEAR(last, 0.01, 1e-12);   // rounded once a row
-    EXPECT_NEAR(volume, scene->laws[1].volume_out, 1e-9 * volume);   // of rows a hundredth of the time long, to 1e-12 of it
+    EXPECT_NEAR(volume, scene->laws[1].volume_out, 1e-12 * volume);   // sums of as many differences as rows
 }
 
 TEST(FlowRecorder, a_profile_is_written_at_its_time_and_only_inside) {
