@@ -116,15 +116,52 @@ TEST_P(LatticeOperators, LaplacianOfAQuadraticVelocityIsExact) {
     EXPECT_GE(inner, 100);
 }
 
+/// A quadratic velocity's gradient; steps sort particles, so it is asked by place.
+Mat3 quadratic_gradient(const Vec3& x, double half) {
+    const Vec3 q = x / half;
+    return (1 / half) * Mat3{{1.2 * q.x + 0.4 * q.y, 0.6 * q.y + 0.4 * q.x, 0}, {0.5 * q.y, 0.5 * q.x - 0.4 * q.y, 0}, {0.6 * q.x, 0, 0}};
+}
+
 /// Sets velocities to a quadratic function of place, and the gradients to its own.
 void set_quadratic(SmallFlow& flow, double half) {
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
         const Vec3 q = flow.fluid.position[i] / half;
         flow.fluid.velocity[i] = {0.6 * q.x * q.x + 0.3 * q.y * q.y + 0.4 * q.x * q.y, 0.5 * q.x * q.y - 0.2 * q.y * q.y, 0.3 * q.x * q.x};
-        flow.fluid.velocity_gradient[i] = (1 / half) * Mat3{{1.2 * q.x + 0.4 * q.y, 0.6 * q.y + 0.4 * q.x, 0},
-                                                            {0.5 * q.y, 0.5 * q.x - 0.4 * q.y, 0},
-                                                            {0.6 * q.x, 0, 0}};
+        flow.fluid.velocity_gradient[i] = quadratic_gradient(flow.fluid.position[i], half);
     }
+}
+
+double size_of(const Mat3& m) { return std::sqrt(dot(m.x, m.x) + dot(m.y, m.y) + dot(m.z, m.z)); }
+
+// A step starts from the gradients of the last one, and from the true ones it stays there.             THEORY.md (3.8)
+TEST_P(Operators, GradientAndDivergenceOfAQuadraticVelocityAreExactOnceKnown) {
+    const double half = 6 * dp, stiffness = flow.blood.density * flow.blood.sound_speed * flow.blood.sound_speed;
+    set_quadratic(flow, half);
+    compute();
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+        const double allowed = (is_border(flow.fluid.position[i], 3) ? 10 : 1) * tolerance() / half;
+        const Mat3 exact = quadratic_gradient(flow.fluid.position[i], half);
+        EXPECT_LE(size_of(flow.fluid.velocity_gradient[i] - exact), allowed);
+        EXPECT_NEAR(flow.fluid.pressure_rate[i] / -stiffness, trace(exact), allowed);
+    }
+}
+
+TEST_P(Operators, GradientsOfAQuadraticVelocityAreFoundStepByStep) {
+    const double half = 6 * dp;
+    set_quadratic(flow, half);
+    std::fill(flow.fluid.velocity_gradient.begin(), flow.fluid.velocity_gradient.end(), Mat3{});
+    const auto scheme = flow.make(GetParam().precision);
+    const auto worst = [&] {
+        double worst = 0;
+        for (std::size_t i = 0; i < flow.fluid.size(); ++i)
+            worst = std::max(worst, half * size_of(flow.fluid.velocity_gradient[i] - quadratic_gradient(flow.fluid.position[i], half)));
+        return worst;
+    };
+    scheme->step(0, 1e-15);
+    const double first = worst();
+    for (int k = 0; k < 30; ++k) scheme->step(0, 1e-15);
+    EXPECT_GE(first, 0.05);   // one-sided differences at the border
+    EXPECT_LE(worst(), std::max(0.02 * first, 10 * tolerance())) << first;
 }
 
 TEST_P(Operators, DissipationLeavesQuadraticVelocitiesAlone) {                                  // THEORY.md (4.9)

@@ -134,6 +134,7 @@ private:
                                        if (k != no_wall) wall_viscosity_[k] = sum;
                                    });
         surface_velocity_.resize(arrangement_.wall_count());
+        bend_.resize(domain_.fluid.size());
         arrangement_.sum_over_blood(records_of(geometry, velocity_, row_x, row_y, row_z, diagonal, mixed),
                                     records_of(geometry, velocity_, row_x, row_y, row_z), terms::Viscosity{},
                                     [&](std::uint32_t i, const ViscousSums& sum) { apply_viscosity(i, sum, speed); });
@@ -157,6 +158,13 @@ private:
             gradient += outer(slip.velocity, Vec3{wall[27], wall[28], wall[29]});
             laplacian -= mu * friction[0] * slip.velocity;
             first += mu * Vec3{friction[2], friction[3], friction[4]};
+        }
+        // Near a wall the mirror is of first order, and in a buffer the velocity is told.          THEORY.md (3.8)
+        bend_[i] = 0;
+        if (k == no_wall && fluid.opening[i] == 0) {
+            const Mat3 bend{{sum[21], sum[22], sum[23]}, {sum[24], sum[25], sum[26]}, {sum[27], sum[28], sum[29]}};
+            gradient += bend;
+            bend_[i] = trace(bend * correct);
         }
         gradient = gradient * correct;
         if (fluid.opening[i] != 0) {   // natural outflow: nothing changes along the axis
@@ -237,8 +245,8 @@ private:
                     const Vec3 slip = fluid.velocity[i] - surface_velocity_of(i, k);
                     divergence += T(slip.x) * b.wall.x + T(slip.y) * b.wall.y + T(slip.z) * b.wall.z;
                 }
-                divergence_[i] = double(divergence);
-                const double expansion = double(divergence) - excess;
+                divergence_[i] = double(divergence) + bend_[i];
+                const double expansion = divergence_[i] - excess;
                 const auto& m = arrangement_.moments(i);   // of the linear part, whose diffusion vanishes: taken off
                 const Vec3& g = fluid.pressure_gradient[i];
                 const double jump = double(s[6]) - unit * (g.x * m[9] + g.y * m[10] + g.z * m[11]);
@@ -304,6 +312,7 @@ private:
     std::vector<Vec3> surface_velocity_;               // of the wall, by the same numbers
     std::vector<Vec3> moved_;
     std::vector<double> divergence_;   // of the velocity, as the sums report it [1/s]
+    std::vector<double> bend_;         // what the curvature of the velocity adds to its divergence [1/s]
     bool gradients_known_ = false;
 };
 

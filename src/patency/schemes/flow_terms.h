@@ -118,8 +118,9 @@ PATENCY_INLINE P laplacian_weight(const Pair<P>& pair, const Quads<P>& diagonal,
 ///   0-8   sum w (v_i - v_j) d, by rows          9-11  sum wA mu (v_j - v_i)
 ///   12-14 sum wA mu d                           15-17 sum w (mu_i - mu_j) d
 ///   18-20 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
+///   21-29 sum w (L_i - L_j) d / 2 d, by rows: what the curvature of the velocity takes from 0-8   THEORY.md (3.8)
 struct Viscosity {
-    static constexpr int own_extras = 6, extras = 4, sums = 21;
+    static constexpr int own_extras = 6, extras = 4, sums = 30;
     template <class P>
     PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 6>& i, const Sample<P, 4>& j, std::array<P, sums>& sum) const {
         const Quads<P>&vi = i.extra[0], &vj = j.extra[0];
@@ -142,6 +143,14 @@ struct Viscosity {
         sum[18] = fma(wr, u - explained(1), sum[18]);
         sum[19] = fma(wr, v - explained(2), sum[19]);
         sum[20] = fma(wr, q - explained(3), sum[20]);
+        const auto bend = [&](std::size_t row) {   // component `row` of (L_i - L_j) d / 2
+            const Quads<P>&gi = i.extra[row], &gj = j.extra[row];
+            return P(0.5f) * fma(gi.a - gj.a, pair.d.x, fma(gi.b - gj.b, pair.d.y, (gi.c - gj.c) * pair.d.z));
+        };
+        const P bx = bend(1), by = bend(2), bz = bend(3);
+        sum[21] = fma(bx, wx, sum[21]), sum[22] = fma(bx, wy, sum[22]), sum[23] = fma(bx, wz, sum[23]);
+        sum[24] = fma(by, wx, sum[24]), sum[25] = fma(by, wy, sum[25]), sum[26] = fma(by, wz, sum[26]);
+        sum[27] = fma(bz, wx, sum[27]), sum[28] = fma(bz, wy, sum[28]), sum[29] = fma(bz, wz, sum[29]);
     }
 };
 
