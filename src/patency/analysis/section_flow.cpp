@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/analysis/section_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace patency {
+
+namespace {
+
+// A section that goes on beyond this many radii has run into another vessel.
+constexpr int farthest_radii = 4;
+
+/// Share of a square of side `side` that lies where a distance is negative, the zero line being straight across it.
+double share_inside(double distance, double side) { return std::clamp(0.5 - distance / side, 0.0, 1.0); }
+
+Vec3 in_plane(const Vec3& v, const Vec3& normal) { return v - dot(v, normal) * normal; }
+
+}  // namespace
+
+double SectionGrid::total_area() const {
+    double sum = 0;
+    for (double a : area) sum += a;
+    return sum;
+}
+
+SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, int across) {
+    const Vec3& n = plane.normal;
+    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 a = normalized(cross(n, other)), b = cross(n, a);
+    const double side = plane.radius / across;
+    const int half = farthest_radii * across, width = 2 * half + 1;
+    const auto place = [&](int i, int j) { return plane.centre + side * (double(i - half) * a + double(j - half) * b); };
+
+    SectionGrid grid;
+    grid.normal = n;
+    // Flood from the centre over squares that have a part in the lumen.
+    std::vector<std::uint8_t> seen(std::size_t(width) * std::size_t(width), 0);
+    std::vector<std::pair<int, int>> next{{half, half}};
+    seen[std::size_t(half) * std::size_t(width) + std::size_t(half)] = 1;
+    while (!next.empty()) {
+        const auto [i, j] = next.back();
+        next.pop_back();
+        Vec3 x = place(i, j);
+        const double distance = wall.distance(x), share = share_inside(distance, side);
+        if (share == 0) continue;
+        if (share < 1) x -= 0.5 * (1 - share) * side * in_plane(wall.normal(x), n);   // the middle of what is inside
+        grid.place.push_back(x), grid.area.push_back(share * side * side);
+        for (const auto& [u, v] : {std::pair{i + 1, j}, {i - 1, j}, {i, j + 1}, {i, j - 1}}) {
+            if (u < 0 || v < 0 || u >= width || v >= width) {
+                grid.closed = false;
+                continue;
+            }
+            std::uint8_t& flag = seen[std::size_t(v) * std::size_t(width) + std::size_t(u)];
+            if (!flag) flag = 1, next.push_back({u, v});
+        }
+    }
+    return grid;
+}
+
+std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame, std::span<const SectionGrid> sections,
+                                               double reach, const WallHint& wall) {
+    std::vector<Vec3> places;
+    for (const SectionGrid& s : sections) places.insert(places.end(), s.place.begin(), s.place.end());
+    const auto samples = sample_flow(fluid, frame, places, reach, false, &wall);
+
+    std::vector<SectionFlow> result;
+    std::size_t first = 0;
+    for (const SectionGrid& s : sections) {
+        SectionFlow r{s.total_area(), 0, 0, 0, 0};
+        double seen = 0;
+        for (std::size_t k = 0; k < s.place.size(); ++k) {
+            const FlowSample& sample = samples[first + k];
+            if (sample.neighbours == 0) continue;
+            const double along = dot(sample.velocity, s.normal);
+            seen += s.area[k];
+            r.flow += s.area[k] * along;
+            r.pressure += s.area[k] * sample.pressure;
+            r.peak_velocity = std::max(r.peak_velocity, along);
+        }
+        first += s.place.size();
+        r.mean_velocity = r.flow / seen;
+        r.flow = r.mean_velocity * r.area;
+        r.pressure /= seen;
+        result.push_back(r);
+    }
+    return result;
+}
+
+}  // namespace patency

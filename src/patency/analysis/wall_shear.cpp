@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/analysis/wall_shear.h"
+
+#include <cmath>
+
+#include "patency/physics/fluid/shear_rate.h"
+
+namespace patency {
+
+std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places, double reach,
+                                    const WallHint& wall, const std::function<double(double)>& viscosity_at) {
+    const auto samples = sample_flow(fluid, frame, places.position, reach, false, &wall);
+    std::vector<Vec3> stress(samples.size());
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const Mat3& g = samples[k].velocity_gradient;
+        const Vec3& n = places.normal[k];
+        if (samples[k].neighbours == 0) {
+            stress[k] = {NAN, NAN, NAN};
+            continue;
+        }
+        const double mu = viscosity_at(shear_rate(g));
+        const Vec3 traction = -mu * (g * n + transpose(g) * n);   // on the wall, whose outward is the blood's inward
+        stress[k] = traction - dot(traction, n) * n;
+    }
+    return stress;
+}
+
+void WallShearMeans::add(std::span<const Vec3> stress, double dt) {
+    vector_.resize(stress.size()), magnitude_.resize(stress.size());
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+        vector_[k] += dt * stress[k];
+        magnitude_[k] += dt * norm(stress[k]);
+    }
+    time_ += dt;
+}
+
+std::vector<Vec3> WallShearMeans::mean() const {
+    std::vector<Vec3> result;
+    for (const Vec3& sum : vector_) result.push_back(sum / time_);
+    return result;
+}
+
+std::vector<double> WallShearMeans::tawss() const {
+    std::vector<double> result;
+    for (double sum : magnitude_) result.push_back(sum / time_);
+    return result;
+}
+
+std::vector<double> WallShearMeans::osi() const {
+    std::vector<double> result;
+    for (std::size_t k = 0; k < vector_.size(); ++k)
+        result.push_back(magnitude_[k] == 0 ? 0 : 0.5 * (1 - norm(vector_[k]) / magnitude_[k]));   // no stress, no oscillation
+    return result;
+}
+
+std::vector<double> WallShearMeans::rrt() const {   // (1 - 2 OSI) TAWSS is the magnitude of the mean
+    std::vector<double> result;
+    for (const Vec3& sum : vector_) result.push_back(time_ / norm(sum));
+    return result;
+}
+
+}  // namespace patency

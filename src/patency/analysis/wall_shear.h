@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wall shear stress where the wall is, and what a cycle makes of it: TAWSS, OSI, RRT. Reads particles; moves none.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "patency/analysis/sample.h"
+
+namespace patency {
+
+/// Places of a wall: middles of its triangles.
+struct WallPlaces {
+    std::vector<Vec3> position;   ///< [m]
+    std::vector<Vec3> normal;     ///< unit, OUT of the blood
+};
+
+/// The force of the blood along the wall, per area [Pa], at every place: the viscosity at the shear rate there, times the
+/// velocity gradient fitted one-sidedly to the blood and to the wall's own velocity. It points where the blood goes. NaN
+/// where no blood is within `reach` [m]. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
+std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places, double reach,
+                                    const WallHint& wall, const std::function<double(double)>& viscosity_at);
+
+/// Means over time of a wall shear stress. Places where any stress was NaN stay NaN.
+class WallShearMeans {
+public:
+    /// stress: one per place, always in the same order [Pa]; it lasted dt [s].
+    void add(std::span<const Vec3> stress, double dt);
+
+    double duration() const { return time_; }   ///< [s]
+    std::vector<Vec3> mean() const;             ///< of the vector [Pa]
+    std::vector<double> tawss() const;          ///< mean of the magnitude [Pa]                        THEORY.md (13.8)
+    std::vector<double> osi() const;            ///< oscillatory shear index, 0 to 1/2                 THEORY.md (13.9)
+    std::vector<double> rrt() const;            ///< relative residence time [1/Pa]                    THEORY.md (13.10)
+
+private:
+    std::vector<Vec3> vector_;        // integrals over time
+    std::vector<double> magnitude_;
+    double time_ = 0;
+};
+
+}  // namespace patency

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/analysis/wall_shear.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/analysis/poiseuille_tube.h"
+
+namespace patency {
+namespace {
+
+using testing_analysis::PoiseuilleTube;
+
+WallPlaces places_around(const PoiseuilleTube& tube, double axial, int count) {
+    WallPlaces places;
+    for (int k = 0; k < count; ++k) {
+        const double angle = 2 * std::numbers::pi * k / count;
+        const Vec3 out{0, std::cos(angle), std::sin(angle)};
+        places.position.push_back(tube.motion.place(Vec3{axial, 0, 0} + tube.radius * out));
+        places.normal.push_back(tube.motion.turn(out));
+    }
+    return places;
+}
+
+TEST(WallShear, OfAParabolaIsPoiseuilles) {
+    const PoiseuilleTube tube;
+    const WallPlaces places = places_around(tube, 4.5e-3, 24);
+    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
+    const double exact = tube.wall_stress(3.5e-3);
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+        EXPECT_NEAR(dot(stress[k], tube.axis()) / exact, 1, 0.01) << k;   // with the stream
+        EXPECT_NEAR(dot(stress[k], places.normal[k]) / exact, 0, 1e-12) << k;
+        EXPECT_LE(norm(stress[k] - dot(stress[k], tube.axis()) * tube.axis()) / exact, 0.01) << k;
+    }
+}
+
+TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {
+    const PoiseuilleTube tube;
+    const WallPlaces places = places_around(tube, 4.5e-3, 3);
+    std::vector<double> asked;
+    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [&](double rate) {
+#pragma omp critical
+        asked.push_back(rate);
+        return 1e-6 * rate;
+    });
+    ASSERT_EQ(asked.size(), 3u);
+    const double rate = 4 * tube.mean_speed / tube.radius;
+    for (double r : asked) EXPECT_NEAR(r / rate, 1, 0.01);
+    for (const Vec3& s : stress) EXPECT_NEAR(norm(s) / (1e-6 * rate * rate), 1, 0.02);
+}
+
+TEST(WallShear, WithoutBloodNearbyThereIsNone) {
+    const PoiseuilleTube tube;
+    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(), tube.wall, [](double) { return 1.0; });
+    for (const Vec3& s : stress) EXPECT_TRUE(std::isnan(s.x));
+}
+
+TEST(WallShearMeans, OfASteadyStressHaveNoOscillation) {
+    WallShearMeans means;
+    const std::vector<Vec3> stress{{3, 0, 4}, {0, -2, 0}};
+    means.add(stress, 0.25), means.add(stress, 0.75);
+    EXPECT_DOUBLE_EQ(means.duration(), 1);
+    EXPECT_DOUBLE_EQ(means.tawss()[0], 5);
+    EXPECT_DOUBLE_EQ(means.osi()[0], 0);
+    EXPECT_DOUBLE_EQ(means.rrt()[1], 0.5);
+}
+
+TEST(WallShearMeans, OfAStressThatTurnsRound) {
+    WallShearMeans even, uneven;
+    const std::vector<Vec3> to{{2, 0, 0}}, fro{{-2, 0, 0}};
+    even.add(to, 1), even.add(fro, 1);
+    EXPECT_DOUBLE_EQ(even.osi()[0], 0.5);   // the most there is
+    EXPECT_DOUBLE_EQ(even.tawss()[0], 2);
+    uneven.add(to, 3), uneven.add(fro, 1);
+    EXPECT_DOUBLE_EQ(uneven.osi()[0], 0.25);
+    EXPECT_DOUBLE_EQ(uneven.rrt()[0], 1 / ((1 - 2 * 0.25) * 2));
+    EXPECT_EQ(uneven.mean()[0], (Vec3{1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace patency
