@@ -14,7 +14,7 @@ namespace patency {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Young & Tsai 1973: the share of the jet's dynamic pressure that is lost behind a lesion.          THEORY.md (14.3)
+// Young & Tsai 1973: the share of the jet's dynamic pressure that is lost behind a lesion.          THEORY.md (15.3)
 constexpr double expansion_loss = 1.52;
 // Blood that turns into a branch brings part of its parent's profile: half of the excess of a flat one. Between none and
 // all of it lies the pressure drop of the large branch of the reference bifurcation (tests/physics/tree_flow_test.cpp).
@@ -63,7 +63,7 @@ double dynamic_pressure(double density, double speed) { return 0.5 * density * s
 double junction_loss(double density, double parent_speed, double speed, double turn) {
     if (parent_speed == 0) return 0;
     const double ratio = speed / parent_speed;
-    const double share = 1 + ratio * ratio - 2 * ratio * std::cos(0.75 * turn);                       // THEORY.md (14.4)
+    const double share = 1 + ratio * ratio - 2 * ratio * std::cos(0.75 * turn);                       // THEORY.md (15.4)
     return share * dynamic_pressure(density, parent_speed);
 }
 
@@ -74,7 +74,7 @@ std::vector<double> branch_losses(const TreeCase& tree, const TreeBranch& branch
     const auto viscosity = [&](double area) {
         return tree.blood.viscosity_at(8 * std::abs(flow) / (area * diameter(area)));   // at the wall of a parabola
     };
-    const auto friction = [&](std::size_t k) {                                                        // THEORY.md (14.1)
+    const auto friction = [&](std::size_t k) {                                                        // THEORY.md (15.1)
         return 8 * pi * viscosity(branch.area[k]) * flow / (branch.area[k] * branch.area[k]);
     };
     const double begin = branch.area.front(), speed = flow / begin;
@@ -86,7 +86,7 @@ std::vector<double> branch_losses(const TreeCase& tree, const TreeBranch& branch
         if (reynolds > 0)
             loss[k] += entrance * dynamic_pressure(density, speed) *
                        entrance_excess((arc - branch.arc.front()) / (diameter(begin) * reynolds));
-        for (const TreeLesion& lesion : branch.lesions) {                                             // THEORY.md (14.3)
+        for (const TreeLesion& lesion : branch.lesions) {                                             // THEORY.md (15.3)
             const double widening = std::max(lesion.end_arc - lesion.throat_arc, 1e-12);
             const double reached = std::clamp((arc - lesion.throat_arc) / widening, 0.0, 1.0);
             const double jet = std::max(0.0, lesion.reference_area / lesion.throat_area - 1);

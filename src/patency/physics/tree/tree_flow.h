@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steady flow through a tree of vessels as a network: pressure and flow along every branch from areas alone, in a
-// millisecond. Viscous, entrance and lesion losses, losses at bifurcations. Knows no particles. THEORY section 14.
+// millisecond. Viscous, entrance and lesion losses, losses at bifurcations. Knows no particles. THEORY section 15.
 #pragma once
 
 #include <cstddef>
@@ -61,7 +61,7 @@ struct TreeFlow {
     int iterations = 0;                          ///< Newton steps
 };
 
-/// Static pressure at every station for flows that are given. Losses are those of THEORY.md (14.1) to (14.4).
+/// Static pressure at every station for flows that are given. Losses are those of THEORY.md (15.1) to (15.4).
 std::vector<std::vector<double>> tree_pressures(const TreeCase& tree, const std::vector<double>& branch_flows,
                                                 double inlet_pressure);
 
@@ -74,7 +74,7 @@ TreeFlow solve_tree(const TreeCase& tree);
 std::vector<double> murray_shares(const std::vector<double>& diameters, double exponent);
 
 /// The excess pressure of a flat profile that becomes a parabola, x = z / (D Re) after its start, in units of the mean
-/// velocity's dynamic pressure: 0 at first, 1.25 in the end (Shah & London 1978).                   THEORY.md (14.2)
+/// velocity's dynamic pressure: 0 at first, 1.25 in the end (Shah & London 1978).                   THEORY.md (15.2)
 double entrance_excess(double x);
 
 }   // namespace patency
