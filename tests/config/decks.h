@@ -66,6 +66,7 @@ openings:
   c: {type: rcr, proximal_resistance: "9 Wood", distal_resistance: "1e5 dyn s/cm^5", compliance: "0.01 mL/mmHg", initial_pressure: "80 mmHg"}
   d: {type: coronary, proximal_resistance: "1e9 Pa s/m^3", distal_resistance: "3 mmHg min/mL", compliance: "1e-6 cm^5/dyn", distal_pressure: "1 kPa"}
 aorta: {pressure: "93 mmHg"}
+bed: {state: resting, flow: "120 mL/min", murray_exponent: 2.5, venous_pressure: "6 mmHg"}
 initial: {velocity: parabola, speed: "0.1 m/s", pressure: linear}
 numerics:
   scheme: paper

@@ -53,8 +53,7 @@ TEST(Mistakes, MissingForAType) {
     EXPECT_EQ(mistakes_in(pipe_with(", length: \"15 mm\"", "")),
               only("4:10: geometry.shape.length is missing: the length along the axis, for example \"20 mm\""));
     EXPECT_EQ(mistakes_in(pipe_with("type: pressure\n    pressure: \"0 mmHg\"", "type: resistance")),
-              only("13:5: openings.outlet.resistance is missing: pressure above the distal pressure over outflow, for example "
-                   "\"100 mmHg s/mL\""));
+              only("13:5: openings.outlet: needs a resistance, or aorta.pressure, from which it is tuned to the bed"));
 }
 
 TEST(Mistakes, MisspelledKey) {

@@ -136,12 +136,6 @@ TEST(TreeFlow, ATurnCostsAndStraightOnAtTheSameSpeedDoesNot) {
     EXPECT_NEAR(solve_tree(tree).inlet_pressure, straight + 2 * (1 - std::cos(0.375 * pi)) * dynamic, 1e-6);
 }
 
-TEST(TreeFlow, MurrayShares) {
-    const auto shares = murray_shares({2e-3, 1e-3}, 3);
-    EXPECT_NEAR(shares[0], 8.0 / 9, 1e-14);
-    EXPECT_NEAR(shares[1], 1.0 / 9, 1e-14);
-}
-
 TEST(TreeFlow, WhatCannotBeSolvedIsSaid) {
     TreeCase tree = make_y();
     tree.outlets[1] = TreeFlowRate{1e-6}, tree.outlets[2] = TreeFlowRate{1e-6};

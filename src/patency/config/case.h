@@ -47,6 +47,9 @@ inline Words words(OpeningType) { return {"velocity", "flow", "pressure", "resis
 enum class VelocityProfile { plug, parabola, womersley, table, developed_startup };
 inline Words words(VelocityProfile) { return {"plug", "parabola", "womersley", "table", "developed_startup"}; }
 
+enum class BedState { hyperaemic, resting };
+inline Words words(BedState) { return {"hyperaemic", "resting"}; }
+
 enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley };
 inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley"}; }
 
@@ -175,7 +178,7 @@ struct Opening {
     std::optional<double> pressure;                    ///< pressure: Pa
     std::optional<Waveform> waveform;                  ///< velocity (mean), flow, pressure: instead of the constant
     double ramp = 0;                                   ///< velocity, flow, pressure: s, smooth rise from zero
-    double resistance = 0;                             ///< resistance: Pa s/m^3
+    std::optional<double> resistance;                  ///< resistance: Pa s/m^3; absent: tuned to the bed
     double proximal_resistance = 0;                    ///< rcr, coronary: Pa s/m^3
     double distal_resistance = 0;                      ///< rcr, coronary: Pa s/m^3
     double compliance = 0;                             ///< rcr, coronary: m^3/Pa
@@ -187,6 +190,15 @@ struct Opening {
 struct Aorta {
     std::optional<double> pressure;   ///< Pa, mean
     bool operator==(const Aorta&) const = default;
+};
+
+/// The small vessels behind the outlets, which tell what blood they take: resistances without a value are tuned to it.
+struct Bed {
+    BedState state = BedState::hyperaemic;
+    std::optional<double> flow;        ///< m^3/s of all such outlets together; absent: by the state and the inlet's area
+    double murray_exponent = 3;        ///< an outlet takes its diameter to this power
+    double venous_pressure = 666.612;  ///< Pa behind the bed: 5 mmHg
+    bool operator==(const Bed&) const = default;
 };
 
 struct Initial {
@@ -253,6 +265,7 @@ struct Case {
     Vec3 body_force;   ///< m/s^2
     std::map<std::string, Opening> openings;
     Aorta aorta;
+    Bed bed;
     Initial initial;
     Numerics numerics;
     Output output;

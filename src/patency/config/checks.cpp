@@ -131,6 +131,9 @@ private:
         for (const auto& [name, opening] : case_.openings) {
             const std::string path = "openings." + name;
             if (opening.type != OpeningType::velocity && opening.type != OpeningType::flow) is_pressure_set = true;
+            if (opening.type == OpeningType::resistance && !opening.resistance)
+                expect(case_.aorta.pressure.has_value(), path,
+                       "needs a resistance, or aorta.pressure, from which it is tuned to the bed", {path + ".resistance", "aorta.pressure"});
             if (opening.waveform) check_waveform(*opening.waveform, path + ".waveform");
             if (opening.profile == VelocityProfile::womersley)
                 expect(opening.waveform.has_value(), path + ".profile", "womersley needs a waveform: it is the profile of a pulse",

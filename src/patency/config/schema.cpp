@@ -228,9 +228,9 @@ const Table& table_of<Opening>() {
                                      .only = prescribed}),
             row(&Opening::ramp, {.key = "ramp", .help = "the time over which the value rises from zero", .unit = "s",
                                  .range = between(0, 1000), .only = prescribed}),
-            row(&Opening::resistance, {.key = "resistance", .help = "pressure above the distal pressure over outflow",
+            row(&Opening::resistance, {.key = "resistance", .help = "pressure above the distal pressure over outflow; tuned to the bed if absent",
                                        .unit = "Pa s/m^3", .range = between(0, 1e15),
-                                       .only = where("type", {"resistance"}), .need = always}),
+                                       .only = where("type", {"resistance"})}),
             row(&Opening::proximal_resistance, {.key = "proximal_resistance", .help = "the resistance before the compliance",
                                                 .unit = "Pa s/m^3", .range = between(0, 1e15), .only = windkessel,
                                                 .need = always}),
@@ -257,6 +257,20 @@ const Table& table_of<Aorta>() {
     static const Table table = make_table<Aorta>("The aorta, the reference of FFR.", {
         row(&Aorta::pressure, {.key = "pressure", .help = "the mean aortic pressure", .unit = "mmHg",
                                .range = above_up_to(0, 1e5)}),
+    });
+    return table;
+}
+
+template <>
+const Table& table_of<Bed>() {
+    static const Table table = make_table<Bed>("The small vessels behind the outlets, to which resistances without a value are tuned.", {
+        row(&Bed::state, {.key = "state", .help = "how wide they are: what they take if no flow is given"}),
+        row(&Bed::flow, {.key = "flow", .help = "what all these outlets take together in a vessel without a lesion", .unit = "mL/min",
+                         .range = above_up_to(0, 1e-2), .example = "250 mL/min"}),
+        row(&Bed::murray_exponent, {.key = "murray_exponent", .help = "an outlet takes its diameter to this power",
+                                    .range = between(0, 5), .example = "3"}),
+        row(&Bed::venous_pressure, {.key = "venous_pressure", .help = "the pressure behind the bed", .unit = "mmHg",
+                                    .range = between(-1e5, 1e5), .example = "5 mmHg"}),
     });
     return table;
 }
@@ -367,6 +381,7 @@ const Table& table_of<Case>() {
                                 .unit = "m/s^2", .range = between(-1e4, 1e4)}),
         row(&Case::openings, {.key = "openings", .help = "what happens at each opening, by its name"}),
         row(&Case::aorta, {.key = "aorta", .help = "the aorta, the reference of FFR"}),
+        row(&Case::bed, {.key = "bed", .help = "the small vessels behind the outlets"}),
         row(&Case::initial, {.key = "initial", .help = "the blood at the start"}),
         row(&Case::numerics, {.key = "numerics", .help = "how it is computed", .need = always}),
         row(&Case::output, {.key = "output", .help = "what is written"}),

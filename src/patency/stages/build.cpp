@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "patency/base/errors.h"
-#include "patency/physics/fluid/rheology.h"
+#include "patency/stages/bed.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/initial_state.h"
 #include "patency/stages/lumen_of_case.h"
+#include "patency/stages/material.h"
 #include "patency/stages/speeds.h"
 
 namespace patency {
@@ -24,28 +25,6 @@ double support_of(const deck::Numerics& numerics) { return 2 * numerics.smoothin
 PointsExtent extent_of(const deck::Numerics& numerics) {
     const double dp = numerics.spacing, support = support_of(numerics), buffer = buffer_spacings * dp;
     return {.wall_thickness = support + 0.5 * dp, .fluid_extension = buffer, .wall_extension = buffer + support};
-}
-
-Rheology make_rheology(const deck::Blood& blood) {
-    switch (blood.law) {
-        case deck::BloodLaw::newtonian: break;
-        case deck::BloodLaw::carreau_yasuda: return CarreauYasuda{blood.mu_0, blood.mu_inf, blood.lambda, blood.n, blood.a};
-        case deck::BloodLaw::casson: {
-            // Regularised so that the viscosity at rest is the deck's largest: THEORY.md (10.3) at g = 0.
-            const double root = std::sqrt(blood.max_viscosity) - std::sqrt(blood.plastic_viscosity);
-            const double time = blood.yield_stress > 0 ? root * root / blood.yield_stress : 0;
-            return Casson{blood.yield_stress, blood.plastic_viscosity, time};
-        }
-        case deck::BloodLaw::power_law: return PowerLaw{blood.consistency, blood.n, blood.min_viscosity, blood.max_viscosity};
-    }
-    return Newtonian{blood.viscosity};
-}
-
-FluidMaterial make_material(const deck::Blood& blood) {
-    const Rheology law = make_rheology(blood);
-    FluidMaterial material{.density = blood.density, .viscosity = largest_viscosity(law), .sound_speed = 0, .viscosity_at = {}};
-    if (!std::holds_alternative<Newtonian>(law)) material.viscosity_at = [law](double shear_rate) { return viscosity(law, shear_rate); };
-    return material;
 }
 
 FlowNumerics make_numerics(const deck::Case& config, const Lumen& lumen) {
@@ -156,6 +135,7 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config) {
     if (config.wall.motion != deck::WallMotion::rigid)
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
     scene->lumen = make_lumen(config);
+    tune_outlets(scene->config, scene->lumen.openings);
     expect_wall_names(*scene);
     scene->material = make_material(config.blood);
     scene->numerics = make_numerics(config, scene->lumen);

@@ -93,7 +93,7 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
             law.peak_to_mean = peak_to_mean(said, opening.planar ? Section::planar : Section::circular);
         law.signal = {scaled(said, config, opening.area, 1 / law.peak_to_mean), said.ramp};
         const double start = said.initial_pressure.value_or(said.distal_pressure);
-        if (said.type == deck::OpeningType::resistance) law.outlet = Resistance{said.resistance, said.distal_pressure};
+        if (said.type == deck::OpeningType::resistance) law.outlet = Resistance{said.resistance.value(), said.distal_pressure};
         if (said.type == deck::OpeningType::rcr)
             law.outlet = Rcr{said.proximal_resistance, said.compliance, said.distal_resistance, said.distal_pressure};
         if (said.type == deck::OpeningType::coronary)

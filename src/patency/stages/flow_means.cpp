@@ -91,6 +91,10 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
                                         {"mean_pressure_pa", mean.pressure},
                                         {"mean_velocity_m_per_s", mean.velocity},
                                         {"area_m2", scene.ends[k].area}};
+        if (const auto* behind = scene.laws[k].outlet ? std::get_if<Resistance>(&*scene.laws[k].outlet) : nullptr) {
+            openings[scene.ends[k].name]["resistance_pa_s_per_m3"] = behind->resistance;
+            openings[scene.ends[k].name]["distal_pressure_pa"] = behind->distal_pressure;
+        }
     }
     summary["openings"] = openings;
     summary["gauge_pressure_ratio"] = nullptr;   // of the pressures on both sides of a lesion, which decks cannot mark yet

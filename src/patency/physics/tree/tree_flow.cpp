@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "patency/base/errors.h"
+#include "patency/physics/open_ends/bed.h"
 
 namespace patency {
 
@@ -110,14 +111,6 @@ double entrance_excess(double x) {
     const double root = std::sqrt(x);
     const double apparent = (16 + 0.3125 / x - 3.44 / root) / (1 + 0.00021 / (x * x)) + 3.44 / root;   // f Re
     return 4 * (apparent - 16) * x;
-}
-
-std::vector<double> murray_shares(const std::vector<double>& diameters, double exponent) {
-    double sum = 0;
-    std::vector<double> shares;
-    for (double d : diameters) shares.push_back(std::pow(d, exponent)), sum += shares.back();
-    for (double& s : shares) s /= sum;
-    return shares;
 }
 
 std::vector<std::vector<double>> tree_pressures(const TreeCase& tree, const std::vector<double>& flows,

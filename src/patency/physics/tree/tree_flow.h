@@ -69,10 +69,6 @@ std::vector<std::vector<double>> tree_pressures(const TreeCase& tree, const std:
 /// GeometryError if a tree is malformed or no agreement is found.
 TreeFlow solve_tree(const TreeCase& tree);
 
-/// How vessels of these diameters [m] share a flow: D^exponent of each over the sum. 3: Murray; 2.66 fits coronary trees
-/// (Huo & Kassab 2012).
-std::vector<double> murray_shares(const std::vector<double>& diameters, double exponent);
-
 /// The excess pressure of a flat profile that becomes a parabola, x = z / (D Re) after its start, in units of the mean
 /// velocity's dynamic pressure: 0 at first, 1.25 in the end (Shah & London 1978).                   THEORY.md (15.2)
 double entrance_excess(double x);
