@@ -42,7 +42,7 @@ geometry:
   unit: mm
   space: LPS
   lesion: {from: [1, 2.5, "a, b"], note: "a \"quoted\" text: # no comment", empty: ~, truth: true, text: "true"}
-  extensions: [{opening: inlet, length: "4 mm"}]
+  extensions: {diameters: 2}
 blood: {density: "1.06 g/mL", law: carreau_yasuda, mu_0: "56 cP", mu_inf: "0.0345 P", lambda: "1.902 s", n: 0.22, a: 1.25}
 wall:
   motion: deformable

@@ -110,12 +110,18 @@ struct Shape {
     bool is_planar() const { return type == ShapeType::channel || (type == ShapeType::box && planar); }
 };
 
+struct Extensions {
+    double diameters = 0;   ///< of each opening: the length of a straight piece put on it
+    bool operator==(const Extensions&) const = default;
+};
+
 struct Geometry {   // exactly one of surface, network, shape
     std::optional<std::filesystem::path> surface, network;
     std::optional<Shape> shape;
     std::optional<std::string> unit;    ///< of the surface's coordinates: m, cm, mm or um
     std::optional<std::string> space;   ///< axes of the surface's coordinates: LPS or RAS
-    Kept lesion, extensions;
+    Kept lesion;
+    Extensions extensions;
     bool operator==(const Geometry&) const = default;
 };
 

@@ -172,6 +172,8 @@ private:
     }
 
     void check_initial() {
+        expect(case_.initial.velocity != InitialVelocity::taylor_green || case_.geometry.shape, "initial.velocity",
+               "taylor_green needs a box", {"geometry"});
         if (case_.initial.pressure == InitialPressure::linear)
             expect(!case_.openings.empty(), "initial.pressure", "linear needs openings with pressures", {"openings"});
     }

@@ -85,6 +85,15 @@ const Table& table_of<Shape>() {
 }
 
 template <>
+const Table& table_of<Extensions>() {
+    static const Table table = make_table<Extensions>("Straight pieces put on the openings of a surface.", {
+        row(&Extensions::diameters, {.key = "diameters", .help = "their length, in diameters of each opening",
+                                     .range = between(0, 20), .example = "2", .need = always}),
+    });
+    return table;
+}
+
+template <>
 const Table& table_of<Geometry>() {
     static const Table table = make_table<Geometry>(
         "The lumen: a surface file, a network file or a shape.",

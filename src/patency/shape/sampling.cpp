@@ -72,9 +72,17 @@ std::vector<double> wall_volumes(const Lumen& lumen, double spacing, double thic
 Lattice fitted_lattice(const Lumen& lumen, double spacing) {
     if (!(spacing > 0) || !std::isfinite(spacing))
         throw GeometryError(fmt::format("The particle spacing is {} m: it must be positive and finite.", spacing));
-    return {lumen.frame,
-            {stretched(spacing, lumen.fit.x), stretched(spacing, lumen.fit.y), stretched(spacing, lumen.fit.z)},
-            lumen.planar};
+    Vec3 cell{stretched(spacing, lumen.fit.x), stretched(spacing, lumen.fit.y), stretched(spacing, lumen.fit.z)};
+    const int free_axes = (lumen.fit.x > 0 ? 0 : 1) + (lumen.fit.y > 0 ? 0 : 1) + (lumen.planar || lumen.fit.z > 0 ? 0 : 1);
+    const double volume = lumen.planar ? cell.x * cell.y : cell.x * cell.y * cell.z;
+    if (free_axes > 0 && lumen.volume > 0 && std::isfinite(lumen.volume)) {   // a whole number of cells makes up the volume
+        const double whole = lumen.volume / std::max(1.0, std::round(lumen.volume / volume));
+        const double factor = std::pow(whole / volume, 1.0 / free_axes);
+        if (!(lumen.fit.x > 0)) cell.x *= factor;
+        if (!(lumen.fit.y > 0)) cell.y *= factor;
+        if (!lumen.planar && !(lumen.fit.z > 0)) cell.z *= factor;
+    }
+    return {lumen.frame, cell, lumen.planar};
 }
 
 std::vector<Vec3> lattice_points(const Lattice& lattice, const Bounds& region,

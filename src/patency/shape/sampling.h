@@ -20,7 +20,8 @@ struct Lattice {
 };
 
 /// The lattice in the lumen's frame: cells of `spacing` [m], stretched along the axes that the lumen fits so
-/// that a whole number fills them (rows at (k + 1/2) cells from plates, flat openings between rows).
+/// that a whole number fills them (rows at (k + 1/2) cells from plates, flat openings between rows), and along the
+/// others, by about a part in a million, so that a whole number of cells has the lumen's volume.
 Lattice fitted_lattice(const Lumen& lumen, double spacing);
 
 /// All lattice points in `region` that `wanted` accepts; x varies fastest. The region must be finite.
@@ -51,8 +52,8 @@ struct FittedPoints {
     double volume;                          ///< of one point [m^3]; planar: [m^2]
 };
 
-/// The points of fitted_lattice. The number of fluid points times `volume` is the lumen's volume (area x
-/// extension past an opening) to within half a point, and the wall's likewise: the points deepest inside are taken.
+/// The points of fitted_lattice. The number of fluid points times `volume` is the lumen's volume exactly
+/// (area x extension past an opening to within half a point), and the wall's likewise: the points deepest inside are taken.
 /// So on a curved wall some points lie on the wrong side of a face, by less than a spacing; relaxation moves them.
 /// Throws GeometryError if the lumen is too narrow to have that many.
 FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const PointsExtent& extent);

@@ -8,6 +8,8 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/io/surface_file.h"
+#include "patency/shape/surface_lumen.h"
 
 namespace patency {
 
@@ -84,6 +86,22 @@ Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
     throw GeometryError("geometry.shape.type is none of the known ones");
 }
 
+Lumen make_lumen_of_surface(const deck::Case& config) {
+    const deck::Geometry& geometry = config.geometry;
+    const double dp = config.numerics.spacing;
+    const CheckedSurface checked = check_surface(read_surface(*geometry.surface, geometry.unit.value_or("mm"), geometry.space.value_or("")));
+    if (const std::string why = refusals(checked.findings); !why.empty())
+        throw GeometryError(fmt::format("geometry.surface: {} cannot be used; patency inspect shows where.\n{}", geometry.surface->string(), why));
+    const std::vector<SurfaceOpening> openings = find_openings(checked);
+    if (const std::string why = refusals(find_missing_openings(openings)); !why.empty())
+        throw GeometryError(fmt::format("geometry.surface: {}: {}", geometry.surface->string(), why));
+    expect_vessel_size(openings.front(), geometry.unit.value_or("mm"));
+    // Half a spacing: the distance errs by less than a twentieth of it. Ten voxels hold the wall's points and those that may
+    // become some; the continuations hold the buffer, the wall beyond it and its kernels.
+    return make_surface_lumen(checked, openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
+                                                  .straight = geometry.extensions.diameters});
+}
+
 void expect_same_names(const deck::Case& config, const Lumen& lumen) {
     std::vector<std::string> names;
     for (const Opening& opening : lumen.openings) names.push_back(opening.name);
@@ -103,9 +121,9 @@ void expect_same_names(const deck::Case& config, const Lumen& lumen) {
 }  // namespace
 
 Lumen make_lumen(const deck::Case& config) {
-    if (!config.geometry.shape)
-        throw GeometryError("geometry.surface and geometry.network come with the surface reader; use geometry.shape");
-    Lumen lumen = make_unchecked(config, *config.geometry.shape);
+    const deck::Geometry& geometry = config.geometry;
+    if (geometry.network) throw GeometryError("geometry.network: vessel networks cannot be read yet; use geometry.surface or geometry.shape");
+    Lumen lumen = geometry.surface ? make_lumen_of_surface(config) : make_unchecked(config, *geometry.shape);
     expect_same_names(config, lumen);
     return lumen;
 }
@@ -125,7 +143,9 @@ double StraightAxis::radius_at(double place) const {
     return outline.back().radius;
 }
 
-std::optional<StraightAxis> find_straight_axis(const deck::Shape& shape) {
+std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry) {
+    if (!geometry.shape) return {};
+    const deck::Shape& shape = *geometry.shape;
     const std::vector<AxialRadius> outline = outline_of(shape);
     if (outline.empty() || (shape.type == deck::ShapeType::box && !shape.planar)) return {};
     const double length = outline.back().axial - outline.front().axial;
@@ -133,14 +153,24 @@ std::optional<StraightAxis> find_straight_axis(const deck::Shape& shape) {
     return StraightAxis{shape.start, normalized(shape.axis), length, Section::circular, outline};
 }
 
-double narrowest_width(const deck::Shape& shape) {
+double narrowest_width(const deck::Geometry& geometry, const Lumen& lumen) {
+    double width = Bounds::infinity;
+    if (!geometry.shape) {
+        for (const Opening& opening : lumen.openings) width = std::min(width, 2 * opening.radius);
+        return width;
+    }
+    const deck::Shape& shape = *geometry.shape;
     if (shape.type == deck::ShapeType::box)
         return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
-    double width = Bounds::infinity;
     for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
     for (const deck::Branch& b : shape.branches)
         for (const double d : b.diameters) width = std::min(width, d);
     return width;
+}
+
+bool is_single_vessel(const deck::Geometry& geometry, const Lumen& lumen) {
+    if (!geometry.shape) return lumen.openings.size() == 2;
+    return geometry.shape->type != deck::ShapeType::box && geometry.shape->type != deck::ShapeType::branches;
 }
 
 std::string_view plane_wall_name(const Vec3& n) {

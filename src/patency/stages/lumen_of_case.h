@@ -12,8 +12,8 @@
 
 namespace patency {
 
-/// The lumen of geometry.shape with its openings named. Throws GeometryError for shapes that cannot be and for surfaces
-/// and networks; DeckError if the deck names openings that the shape has not, or leaves one out.
+/// The lumen of geometry.shape or geometry.surface with its openings named. Throws GeometryError for shapes that cannot be,
+/// for surfaces with defects and for networks; FileError; DeckError if the deck names openings that the shape has not, or leaves one out.
 Lumen make_lumen(const deck::Case& config);
 
 /// A lumen around one straight axis: a channel, tube, cone, nozzle.
@@ -29,11 +29,14 @@ struct StraightAxis {
     /// Radius or half gap at a place along the axis; constant beyond the ends [m].
     double radius_at(double axial) const;
 };
-/// None for boxes in space and for branches.
-std::optional<StraightAxis> find_straight_axis(const deck::Shape& shape);
+/// None for boxes in space, for branches and for surfaces.
+std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry);
 
-/// The smallest width anywhere: a gap, a side or a diameter [m].
-double narrowest_width(const deck::Shape& shape);
+/// The smallest width anywhere: a gap, a side or a diameter [m]; of a surface's lumen that of its smallest opening.
+double narrowest_width(const deck::Geometry& geometry, const Lumen& lumen);
+
+/// Whether the same blood passes everywhere between one inlet and one outlet.
+bool is_single_vessel(const deck::Geometry& geometry, const Lumen& lumen);
 
 /// Name of the plane wall that has this normal out of the blood: x_low, x_high, y_low, ...
 std::string_view plane_wall_name(const Vec3& normal);
