@@ -4,17 +4,22 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "patency/base/units.h"
 #include "patency/io/atomic_file.h"
+#include "patency/io/centreline_file.h"
 #include "patency/io/output_folder.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "patency/io/surface_picture.h"
 #include "patency/io/vtp.h"
+#include "patency/shape/exact_distance.h"
+#include "patency/shape/lesions.h"
 #include "patency/shape/surface_check.h"
 #include "patency/shape/surface_openings.h"
 
@@ -29,10 +34,18 @@ struct InspectOptions {
     std::string path, unit, space, out, inlet;
 };
 
+/// What is known of a vessel along its centrelines.
+struct VesselAlong {
+    BranchedLines lines;
+    std::vector<std::vector<Section>> sections;
+    Assessment assessment;
+};
+
 struct Inspection {
     std::size_t triangles_read;
     CheckedSurface checked;
     std::vector<SurfaceOpening> openings;
+    std::optional<VesselAlong> along{};   ///< if the surface can be used
 
     double wall_area() const {   // what closes an end is no wall
         double sum = area(checked.surface);
@@ -42,14 +55,78 @@ struct Inspection {
     }
 };
 
+VesselAlong follow(const CheckedSurface& checked, const std::vector<SurfaceOpening>& found) {
+    std::vector<Opening> openings;
+    for (const SurfaceOpening& o : found) openings.push_back(o.opening);
+    const Surface closed = closed_at(checked.surface, checked.ends);
+    VesselAlong along{find_branches(find_centrelines(make_exact_distance(closed), openings)), {}, {}};
+    along.sections = cut_sections(closed, along.lines);
+    along.assessment = assess_lesions(along.lines, along.sections);
+    return along;
+}
+
+/// The centrelines, or why there are none as one more finding.
+void add_centrelines(Inspection& r) {
+    if (!refusals(r.checked.findings).empty()) return;
+    try {
+        r.along = follow(r.checked, r.openings);
+    } catch (const GeometryError& e) {
+        r.checked.findings.push_back({"no_centreline", Verdict::refused, 1, r.openings[0].opening.centre,
+                                      diagonal(bounds(r.checked.surface)), e.what()});
+    }
+}
+
 Inspection inspect(const InspectOptions& o) {
     Surface surface = read_surface(o.path, o.unit, o.space);
-    Inspection result{surface.triangles.size(), check_surface(std::move(surface)), {}};
+    Inspection result{surface.triangles.size(), check_surface(std::move(surface)), {}, {}};
     result.openings = find_openings(result.checked);
     for (Finding& finding : find_missing_openings(result.openings))
         result.checked.findings.push_back(std::move(finding));
     if (!o.inlet.empty()) choose_inlet(result.openings, o.inlet);
+    add_centrelines(result);
     return result;
+}
+
+/// Widths of a branch without its bifurcations [m].
+struct Widths {
+    double least, mean, most;
+};
+Widths widths_of(const VesselAlong& v, const Branch& branch) {
+    Widths w{Bounds::infinity, 0, 0};
+    for (std::size_t k = branch.first; k <= branch.last; ++k) {
+        const double diameter = 2 * v.lines.point(branch, k).radius;
+        w.least = std::min(w.least, diameter), w.most = std::max(w.most, diameter);
+        w.mean += diameter / double(branch.last - branch.first + 1);
+    }
+    return w;
+}
+
+std::string diameter_of(const std::optional<Reference>& reference) {
+    return reference ? fmt::format("{:.3f}", 1e3 * reference->diameter) : "none";
+}
+
+void print_along(const VesselAlong& v) {
+    fmt::print("Centrelines from the inlet, diameters of the largest spheres that fit:\n");
+    for (const Centreline& line : v.lines.lines) fmt::print("  {:<12} {:>9.2f} mm long\n", line.outlet, 1e3 * line.length());
+    fmt::print("Branches:\n    {:<12} {:<12} {:>9} {:>9} {:>24}\n", "name", "after", "from mm", "to mm",
+               "diameter mm, mean, range");
+    for (const Branch& b : v.lines.branches) {
+        const Widths w = widths_of(v, b);
+        fmt::print("    {:<12} {:<12} {:>9.2f} {:>9.2f} {:>9.3f} {:>6.3f} to {:.3f}\n", b.name,
+                   b.parent < 0 ? "inlet" : v.lines.branches[std::size_t(b.parent)].name, 1e3 * v.lines.start_arc(b),
+                   1e3 * v.lines.end_arc(b), 1e3 * w.mean, 1e3 * w.least, 1e3 * w.most);
+    }
+    fmt::print("Lesions: {}\n", v.assessment.lesions.empty() ? "none" : "");
+    for (std::size_t k = 0; k < v.assessment.lesions.size(); ++k) {
+        const Lesion& l = v.assessment.lesions[k];
+        const Vec3 c = 1e3 * l.place;
+        fmt::print("  L{} in {} at {:.2f} mm ({:.2f} to {:.2f}), ({:.2f}, {:.2f}, {:.2f}) mm\n", k + 1,
+                   v.lines.branches[l.branch].name, 1e3 * l.throat_arc, 1e3 * l.start_arc, 1e3 * l.end_arc, c.x, c.y, c.z);
+        fmt::print("     stenosis {:.1f} % of the diameter, {:.1f} % of the area; {:.3f} mm, {:.3f} mm^2 at least\n",
+                   100 * l.diameter_stenosis, 100 * l.area_stenosis, 1e3 * l.minimum_diameter, 1e6 * l.minimum_area);
+        fmt::print("     reference diameters mm: proximal {}, distal {}, interpolated {:.3f}\n", diameter_of(l.proximal),
+                   diameter_of(l.distal), 1e3 * l.interpolated.diameter);
+    }
 }
 
 void print_table(const InspectOptions& o, const Inspection& r) {
@@ -79,9 +156,51 @@ void print_table(const InspectOptions& o, const Inspection& r) {
             : r.openings[k].triangles.empty() ? "open"
                                               : "flat");
     }
+    if (r.along) print_along(*r.along);
 }
 
 Json scaled(const Vec3& x, double factor) { return {factor * x.x, factor * x.y, factor * x.z}; }
+
+Json as_json(const std::optional<Reference>& reference) {
+    if (!reference) return {};
+    return {{"diameter_mm", 1e3 * reference->diameter}, {"area_mm2", 1e6 * reference->area}};
+}
+
+void add_along(Json& json, const VesselAlong& v) {
+    json["centrelines"] = Json::object();
+    for (const Centreline& line : v.lines.lines)
+        json["centrelines"][line.outlet] = {{"length_mm", 1e3 * line.length()}, {"points", line.points.size()}};
+    json["branches"] = Json::object();
+    for (const Branch& b : v.lines.branches) {
+        const Widths w = widths_of(v, b);
+        Json outlets = Json::array();
+        for (std::size_t j : b.lines) outlets.push_back(v.lines.lines[j].outlet);
+        json["branches"][b.name] = {
+            {"parent", b.parent < 0 ? Json() : Json(v.lines.branches[std::size_t(b.parent)].name)},
+            {"outlets", outlets},
+            {"start_arc_mm", 1e3 * v.lines.start_arc(b)},
+            {"end_arc_mm", 1e3 * v.lines.end_arc(b)},
+            {"minimum_diameter_mm", 1e3 * w.least},
+            {"mean_diameter_mm", 1e3 * w.mean},
+            {"maximum_diameter_mm", 1e3 * w.most}};
+    }
+    json["lesions"] = Json::array();
+    for (const Lesion& l : v.assessment.lesions)
+        json["lesions"].push_back({{"branch", v.lines.branches[l.branch].name},
+                                   {"line", v.lines.lines[l.line].outlet},
+                                   {"start_arc_mm", 1e3 * l.start_arc},
+                                   {"throat_arc_mm", 1e3 * l.throat_arc},
+                                   {"end_arc_mm", 1e3 * l.end_arc},
+                                   {"length_mm", 1e3 * l.length()},
+                                   {"place_mm", scaled(l.place, 1e3)},
+                                   {"minimum_diameter_mm", 1e3 * l.minimum_diameter},
+                                   {"minimum_area_mm2", 1e6 * l.minimum_area},
+                                   {"proximal_reference", as_json(l.proximal)},
+                                   {"distal_reference", as_json(l.distal)},
+                                   {"interpolated_reference", as_json(std::optional(l.interpolated))},
+                                   {"diameter_stenosis_percent", 100 * l.diameter_stenosis},
+                                   {"area_stenosis_percent", 100 * l.area_stenosis}});
+}
 
 Json as_json(const InspectOptions& o, const Inspection& r) {
     const Surface& surface = r.checked.surface;
@@ -114,13 +233,15 @@ Json as_json(const InspectOptions& o, const Inspection& r) {
                                                   {"centre_mm", scaled(opening.opening.centre, 1e3)},
                                                   {"normal", scaled(opening.opening.normal, 1)},
                                                   {"model_face_id", opening.face_id ? Json(*opening.face_id) : Json()}};
+    if (r.along) add_along(json, *r.along);
     return json;
 }
 
 void write_results(const InspectOptions& o, const Inspection& r) {
     const OutputFolder folder(o.out);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.root()))   // of an earlier surface
-        if (entry.path().filename().string().starts_with("finding_")) fs::remove(entry.path());
+        if (entry.path().filename().string().starts_with("finding_") || entry.path().filename() == "centerline.vtp")
+            fs::remove(entry.path());
     write_surface(folder.file("surface.vtp"), r.checked.surface);
     for (const Finding& f : r.checked.findings)
         if (!f.shown.points.empty())
@@ -128,8 +249,19 @@ void write_results(const InspectOptions& o, const Inspection& r) {
                 folder.file(fmt::format("finding_{}.vtp", f.kind)),
                 {.points = f.shown.points, .lines = f.lines, .triangles = f.shown.triangles, .space = f.shown.space});
     write_summary(folder.file("inspect.json"), as_json(o, r));
+    DrawnLines drawn;
+    if (r.along) {
+        const VesselAlong& v = *r.along;
+        write_centrelines(folder.file("centerline.vtp"), v.lines, v.sections, v.assessment, r.checked.surface.space);
+        for (const Centreline& line : v.lines.lines) {
+            drawn.lines.emplace_back();
+            for (const CentrelinePoint& p : line.points) drawn.lines.back().push_back(p.place);
+        }
+        for (const Lesion& l : v.assessment.lesions)
+            drawn.marks.push_back({l.place, fmt::format("{:.0f} %", 100 * l.diameter_stenosis)});
+    }
     write_file(folder.file("inspect.svg"),
-               draw_surface(r.checked.surface, r.openings, fs::path(o.path).filename().string()));
+               draw_surface(r.checked.surface, r.openings, fs::path(o.path).filename().string(), drawn));
 }
 
 void run(const InspectOptions& o) {

@@ -23,7 +23,6 @@ function(patency_use folder)   # a folder's own libraries
   endif()
 endfunction()
 patency_use(config yaml-cpp nlohmann_json::nlohmann_json)
-patency_use(shape Eigen3::Eigen)
 patency_use(physics Eigen3::Eigen)
 patency_use(shape Eigen3::Eigen OpenVDB::openvdb)
 patency_use(schemes Eigen3::Eigen)

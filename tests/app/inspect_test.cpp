@@ -40,6 +40,11 @@ TEST_F(Inspect, ASoundTubeIs0) {
     EXPECT_NEAR(json["wall_area_mm2"].get<double>(), 12 * M_PI, 0.01 * 12 * M_PI);
     EXPECT_NEAR(json["openings"]["inlet"]["diameter_mm"].get<double>(), 2, 0.02);
     EXPECT_EQ(json["usable"], true);
+    EXPECT_NEAR(json["centrelines"]["outlet_1"]["length_mm"].get<double>(), 6, 1e-3);
+    EXPECT_NEAR(json["branches"]["branch_1"]["minimum_diameter_mm"].get<double>(), 2, 0.02);
+    EXPECT_EQ(json["lesions"].size(), 0u);
+    EXPECT_TRUE(fs::exists(folder_ / "out/centerline.vtp"));
+    EXPECT_TRUE(has(result.output, "Lesions: none"));
     const std::string svg = contents_of(folder_ / "out/inspect.svg");
     EXPECT_TRUE(has(svg, "outlet_1  2.00 mm"));
     EXPECT_TRUE(has(svg, "</svg>"));
@@ -130,6 +135,33 @@ INSTANTIATE_TEST_SUITE_P(
                       Vessel{"aortoiliac_vmtk_open_ends.stl", "mm", {15.37, 8.821, 8.737}},
                       Vessel{"aortoiliac_simvascular_capped.vtp", "cm", {24.25, 11.13, 10.01}},
                       Vessel{"ideal_Y_bifurcation.stl", "mm", {1.994, 1.994, 1.994}}));
+
+TEST_F(Inspect, TheFocalStenosisOfTheCoronaryTreeIsFound) {
+    if (!fs::exists(vessels())) GTEST_SKIP() << "no " << vessels();
+    const Result result = patency(
+        fmt::format("inspect {} --unit mm -o {}", (vessels() / "coronary_LCA_stenosed_m1.stl").string(), out()));
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto worst = figures()["lesions"][0];
+    const double place[] = {33.0, -19.1, 98.9};
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(worst["place_mm"][axis].get<double>(), place[axis], 0.3);
+    EXPECT_NEAR(worst["minimum_diameter_mm"].get<double>(), 0.58, 0.03);
+    EXPECT_GT(worst["diameter_stenosis_percent"].get<double>(), 80);
+    EXPECT_TRUE(has(contents_of(folder_ / "out/inspect.svg"), "L1  84 %"));
+}
+
+TEST_F(Inspect, TheStenosisOfTheReferenceBifurcationIs39Percent) {
+    const fs::path lumen = fs::path(PATENCY_SOURCE_DIR) / "../shared/reference/coronary_bifurcation/lumen.stl";
+    if (!fs::exists(lumen)) GTEST_SKIP() << "no " << lumen;
+    const Result result = patency(fmt::format("inspect {} --unit mm -o {}", lumen.string(), out()));
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto json = figures();
+    ASSERT_EQ(json["lesions"].size(), 1u) << result.output;
+    EXPECT_NEAR(json["lesions"][0]["diameter_stenosis_percent"].get<double>(), 39, 1);
+    const double place[] = {28.1283, 9.0408, 3.0255};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(json["lesions"][0]["place_mm"][axis].get<double>(), place[axis], 0.6);
+    EXPECT_EQ(json["branches"].size(), 5u);
+}
 
 TEST_F(Inspect, TheDirtyVesselIsRefusedWithItsDefects) {
     if (!fs::exists(vessels())) GTEST_SKIP() << "no " << vessels();

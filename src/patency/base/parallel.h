@@ -25,6 +25,13 @@ void for_each_block(std::size_t count, Body body) {
     for (std::size_t b = 0; b < blocks; ++b) body(b * block_size, std::min(count, (b + 1) * block_size));
 }
 
+/// body(i) for every i in [0, count), each of them much work; no body may touch what another one writes, nor throw.
+template <class Body>
+void for_each_task(std::size_t count, Body body) {
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < count; ++i) body(i);
+}
+
 /// body(i) for every i in [0, count); no body may touch what another one writes.
 template <class Body>
 void for_each_index(std::size_t count, Body body) {

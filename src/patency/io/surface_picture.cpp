@@ -136,6 +136,29 @@ void draw_label(std::string& svg, const Label& label) {
         label.is_leftward ? "end" : "start");
 }
 
+void draw_lines(std::string& svg, const DrawnLines& drawn, const Page& page) {
+    for (const std::vector<Vec3>& line : drawn.lines) {
+        std::string path;
+        double x = 0, y = 0;
+        for (std::size_t k = 0; k < line.size(); ++k) {
+            const double next_x = page.x(line[k]), next_y = page.y(line[k]);
+            if (k > 0 && k + 1 < line.size() && std::hypot(next_x - x, next_y - y) < 2) continue;   // pixels
+            x = next_x, y = next_y;
+            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", x, y);
+        }
+        svg += fmt::format("<path fill=\"none\" stroke=\"#fff\" stroke-width=\"3.5\" d=\"{0}\"/>"
+                           "<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" d=\"{0}\"/>\n",
+                           path);
+    }
+    for (std::size_t k = 0; k < drawn.marks.size(); ++k)
+        svg += fmt::format(
+            "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"9\" fill=\"none\" stroke=\"#06c\" stroke-width=\"3\"/>"
+            "<text x=\"{2:.1f}\" y=\"{3:.1f}\" fill=\"#06c\" stroke=\"#fff\" stroke-width=\"4\" "
+            "paint-order=\"stroke\">L{4}  {5}</text>\n",
+            page.x(drawn.marks[k].place), page.y(drawn.marks[k].place), page.x(drawn.marks[k].place) + 14,
+            page.y(drawn.marks[k].place) + 5, k + 1, escaped(drawn.marks[k].text));
+}
+
 /// A round length of about a sixth of the page.
 void draw_scale(std::string& svg, const View& view, const Page& page) {
     const double sixth = width / 6 / page.scale() * 1e3, decade = std::pow(10, std::floor(std::log10(sixth)));
@@ -154,7 +177,7 @@ void draw_scale(std::string& svg, const View& view, const Page& page) {
 }   // namespace
 
 std::string draw_surface(const Surface& surface, const std::vector<SurfaceOpening>& openings,
-                         const std::string& title) {
+                         const std::string& title, const DrawnLines& drawn) {
     const Bounds box = bounds(surface);
     const View& view = best_view(box);
     const Page page(view, box);
@@ -169,6 +192,7 @@ std::string draw_surface(const Surface& surface, const std::vector<SurfaceOpenin
         fmt::format("<text x=\"30\" y=\"38\" font-size=\"20\">{}</text>\n<g stroke-width=\"0.6\">\n", escaped(title));
     draw_triangles(svg, surface, is_opening, page);
     svg += "</g>\n";
+    draw_lines(svg, drawn, page);
     for (const Label& label : place_labels(openings, page)) draw_label(svg, label);
     draw_scale(svg, view, page);
     return svg + "</svg>\n";

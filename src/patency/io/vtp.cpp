@@ -228,6 +228,11 @@ void write_polydata(const std::filesystem::path& path, const PolyData& source, c
             make_floats(name, {std::as_bytes(std::span(array.values)), array.components}, target));
         add_unit(*data, name, array.unit);
     }
+    for (const IntegerArray& array : source.integers) {
+        assert(array.values.size() == source.points.size() && "one value per point");
+        data->GetPointData()->AddArray(
+            make_integers(vtk_name(array.name), std::as_bytes(std::span(array.values)), {}));
+    }
     write(*data, target);
 }
 

@@ -42,12 +42,19 @@ struct PointArray {
     std::vector<double> values{};
 };
 
+/// Whole numbers at the points of a PolyData, one per point.
+struct IntegerArray {
+    std::string name;
+    std::vector<std::int32_t> values{};
+};
+
 /// Points with what connects them. Without lines and triangles every point is a vertex.
 struct PolyData {
     std::vector<Vec3> points{};   ///< m
     std::vector<std::vector<std::uint32_t>> lines{};
     std::vector<std::array<std::uint32_t, 3>> triangles{};
     std::vector<PointArray> arrays{};
+    std::vector<IntegerArray> integers{};
     std::vector<std::int32_t> face_ids{};   ///< one per triangle, without lines beside them; the cell array ModelFaceID
     std::string space{};                    ///< "LPS" or "RAS": the mark SPACE that 3D Slicer looks for
 };

@@ -80,6 +80,18 @@ std::vector<EdgeUse> boundary_edges(std::span<const EdgeUse> uses) {
     return boundary;
 }
 
+Surface closed_at(Surface surface, std::span<const FlatLoop> loops) {
+    for (const FlatLoop& loop : loops) {
+        const auto centre = std::uint32_t(surface.points.size());
+        surface.points.push_back(loop.centre);
+        for (std::size_t k = 0; k < loop.rim.size(); ++k) {   // the rim runs as a face that closes the surface would
+            surface.triangles.push_back({centre, loop.rim[k], loop.rim[(k + 1) % loop.rim.size()]});
+            if (!surface.face_ids.empty()) surface.face_ids.push_back(-1);
+        }
+    }
+    return surface;
+}
+
 double closed_volume(const Surface& surface, std::span<const FlatLoop> loops) {
     double sum = volume(surface);
     if (surface.points.empty()) return sum;

@@ -35,6 +35,9 @@ std::vector<FlatLoop> find_loops(const Surface& surface, std::span<const EdgeUse
 /// The edges of the surface that only one triangle has.
 std::vector<EdgeUse> boundary_edges(std::span<const EdgeUse> uses);
 
+/// The surface with every loop closed by triangles around its centre, face ids -1 if the surface has any.
+Surface closed_at(Surface surface, std::span<const FlatLoop> loops);
+
 /// Volume of the surface when its loops are closed by flat faces [m^3].
 double closed_volume(const Surface& surface, std::span<const FlatLoop> loops);
 

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/shape/exact_distance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "patency/base/errors.h"
+#include "patency/shape/triangle_tree.h"
+
+namespace patency {
+
+namespace {
+
+/// The nearest place of the segment from a along ab.
+double along(const Vec3& a, const Vec3& ab, const Vec3& x) {
+    const double square = dot(ab, ab);
+    return square > 0 ? std::clamp(dot(x - a, ab) / square, 0.0, 1.0) : 0;
+}
+
+double square_to(const Bounds& box, const Vec3& x) {
+    const auto beyond = [](double low, double high, double at) { return std::max({low - at, at - high, 0.0}); };
+    const Vec3 d{beyond(box.low.x, box.high.x, x.x), beyond(box.low.y, box.high.y, x.y),
+                 beyond(box.low.z, box.high.z, x.z)};
+    return dot(d, d);
+}
+
+/// The nearest place of a triangle, and on which of its features it is: 0 inside, 1..3 on the side that starts at corner
+/// 0..2, 4..6 in corner 0..2.
+struct NearestPlace {
+    Vec3 place{};
+    std::size_t feature = 0;
+};
+
+NearestPlace nearest_of(const std::array<Vec3, 3>& p, const Vec3& x) {
+    const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+    bool is_above = dot(n, n) > 0;   // over the triangle
+    for (std::size_t k = 0; k < 3 && is_above; ++k) is_above = dot(cross(n, p[(k + 1) % 3] - p[k]), x - p[k]) > 0;
+    if (is_above) return {x - (dot(x - p[0], n) / dot(n, n)) * n, 0};
+    NearestPlace best{p[0], 4};
+    double nearest = Bounds::infinity;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 ab = p[(k + 1) % 3] - p[k];
+        const double t = along(p[k], ab, x);
+        const Vec3 place = p[k] + t * ab;
+        const double square = dot(x - place, x - place);
+        if (!(square < nearest)) continue;
+        nearest = square;
+        best = {place, t == 0 ? 4 + k : t == 1 ? 4 + (k + 1) % 3 : 1 + k};
+    }
+    return best;
+}
+
+/// A closed surface with the normals of its sides and corners.
+struct ExactSurface {
+    Surface surface;
+    TriangleTree tree;
+    std::vector<std::array<Vec3, 7>> normals;   // per triangle and feature; of any length
+
+    explicit ExactSurface(Surface closed)
+        : surface(std::move(closed)), tree(surface), normals(surface.triangles.size()) {
+        std::vector<Vec3> corner(surface.points.size());
+        for (std::size_t k = 0; k < normals.size(); ++k) {
+            const Triangle& t = surface.triangles[k];
+            const Vec3 area = area_vector(surface, t);
+            const Vec3 n = norm(area) > 0 ? normalized(area) : Vec3{};
+            normals[k].fill(n);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Vec3 u = surface.points[t[(c + 1) % 3]] - surface.points[t[c]],
+                           v = surface.points[t[(c + 2) % 3]] - surface.points[t[c]];
+                corner[t[c]] += std::atan2(norm(cross(u, v)), dot(u, v)) * n;
+            }
+        }
+        for (std::size_t k = 0; k < normals.size(); ++k)
+            for (std::size_t c = 0; c < 3; ++c) normals[k][4 + c] = corner[surface.triangles[k][c]];
+        const std::vector<EdgeUse> uses = edge_uses(surface);
+        for_each_edge(std::span<const EdgeUse>(uses), [&](std::span<const EdgeUse> edge) {
+            if (edge.size() == 1) {
+                const Vec3 x = 1e3 * surface.points[edge[0].low];
+                throw GeometryError(
+                    fmt::format("The surface is not closed: an edge at ({:.3f}, {:.3f}, {:.3f}) mm has "
+                                "only one triangle.",
+                                x.x, x.y, x.z));
+            }
+            Vec3 sum{};
+            for (const EdgeUse& use : edge) sum += normals[use.triangle][0];
+            for (const EdgeUse& use : edge) {
+                const Triangle& t = surface.triangles[use.triangle];
+                const std::uint32_t start = use.rises ? use.low : use.high;
+                for (std::size_t c = 0; c < 3; ++c)
+                    if (t[c] == start) normals[use.triangle][1 + c] = sum;
+            }
+        });
+    }
+
+    std::pair<std::uint32_t, NearestPlace> nearest(const Vec3& x) const {
+        const auto& nodes = tree.nodes();
+        std::uint32_t triangle = 0;
+        NearestPlace best{};
+        double least = Bounds::infinity;                            // the square of its distance
+        std::array<std::pair<std::uint32_t, double>, 64> waiting;   // the tree is at most 32 deep, two nodes each
+        std::size_t count = 0;
+        waiting[count++] = {0, square_to(nodes[0].box, x)};
+        while (count > 0) {
+            const auto [index, square] = waiting[--count];
+            if (square >= least) continue;
+            const TriangleTree::Node& node = nodes[index];
+            if (!node.is_leaf()) {
+                std::pair nearer(node.left, square_to(nodes[node.left].box, x)),
+                    farther(node.right, square_to(nodes[node.right].box, x));
+                if (farther.second < nearer.second) std::swap(nearer, farther);
+                waiting[count++] = farther, waiting[count++] = nearer;
+                continue;
+            }
+            for (std::uint32_t k = node.begin; k < node.end; ++k) {
+                const Triangle& t = surface.triangles[tree.order()[k]];
+                const NearestPlace next =
+                    nearest_of({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]}, x);
+                const Vec3 d = x - next.place;
+                if (dot(d, d) < least) least = dot(d, d), best = next, triangle = tree.order()[k];
+            }
+        }
+        return {triangle, best};
+    }
+
+    DistanceSample sample(const Vec3& x) const {
+        const auto [t, near] = nearest(x);
+        const Vec3 n = normals[t][near.feature];
+        const double distance = norm(x - near.place), sign = dot(x - near.place, n) < 0 ? -1 : 1;
+        if (distance == 0) return {0, norm(n) > 0 ? normalized(n) : Vec3{1, 0, 0}, 0};
+        return {sign * distance, (sign / distance) * (x - near.place), 0};
+    }
+};
+
+}   // namespace
+
+SignedDistance make_exact_distance(Surface closed) {
+    if (closed.triangles.empty()) throw GeometryError("A surface without triangles has no distance.");
+    const auto exact = std::make_shared<const ExactSurface>(std::move(closed));
+    return {[exact](const Vec3& x) { return exact->sample(x); }, bounds(exact->surface)};
+}
+
+}   // namespace patency
