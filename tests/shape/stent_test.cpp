@@ -48,20 +48,7 @@ TEST_P(Library, IsOneConnectedPieceWithThePatternsCells) {
     EXPECT_GE(find_alloy(pattern_.alloy).density, 6000);
 }
 
-TEST_P(Library, HasItsLengthAndDiameter) {
-    double low = 1, high = -1, outer = 0, inner = 1;
-    for (const Vec3& x : make_stent_surface(curves_).points) {
-        low = std::min(low, x.x), high = std::max(high, x.x);
-        outer = std::max(outer, std::hypot(x.y, x.z)), inner = std::min(inner, std::hypot(x.y, x.z));
-    }
-    const double tolerance = 1e-3 * pattern_.strut_width;
-    EXPECT_NEAR(high - low, pattern_.length, 10 * tolerance);
-    EXPECT_NEAR(high + low, 0, 10 * tolerance);
-    EXPECT_NEAR(2 * outer, pattern_.diameter, tolerance);
-    EXPECT_NEAR(outer - inner, pattern_.strut_thickness, tolerance);
-}
-
-TEST_P(Library, MeshIsClosedAndHasTheMetalsVolumeAndArea) {
+TEST_P(Library, MeshIsClosedAndHasTheMetalsMeasures) {
     StrutCurves sharp = curves_;
     sharp.edge_radius = 0;
     const StentMeasures m = measure_stent(sharp);
@@ -74,6 +61,16 @@ TEST_P(Library, MeshIsClosedAndHasTheMetalsVolumeAndArea) {
     // Chords of the round tube: (step / radius)^2 / 6.
     EXPECT_NEAR(volume(mesh), m.volume, 1e-3 * m.volume);
     EXPECT_NEAR(area(mesh), m.surface_area, 1e-3 * m.surface_area);
+    double low = 1, high = -1, outer = 0, inner = 1;
+    for (const Vec3& x : mesh.points) {
+        low = std::min(low, x.x), high = std::max(high, x.x);
+        outer = std::max(outer, std::hypot(x.y, x.z)), inner = std::min(inner, std::hypot(x.y, x.z));
+    }
+    const double w = pattern_.strut_width;
+    EXPECT_NEAR(high - low, pattern_.length, 0.01 * w);
+    EXPECT_NEAR(high + low, 0, 0.01 * w);
+    EXPECT_NEAR(2 * outer, pattern_.diameter, 1e-12);
+    EXPECT_NEAR(outer - inner, pattern_.strut_thickness, 1e-12);
 }
 
 // Where the strut is plain, the metal's edges lie half a width beside its centreline, and its faces half a thickness
@@ -121,7 +118,7 @@ TEST_P(Library, VolumeIsThatOfAFineQuadrature) {
     const SignedDistance metal = make_stent_metal(curves_);
     const double inner = curves_.middle_radius - curves_.thickness / 2, outer = outer_radius(curves_);
     const double wall = pi * (outer * outer - inner * inner) * curves_.length;
-    const std::size_t count = 1'000'000;   // share 0.2: standard error 0.2 %
+    const std::size_t count = 400'000;   // share 0.2: a random choice would err by 0.3 %
     const StentAxis axis;
     const double inside = sum_of(count, [&](std::size_t k) {
         // The points k (a, b, c) mod 1 of the golden section's kin fill a cube evenly (R3 sequence).
@@ -131,7 +128,7 @@ TEST_P(Library, VolumeIsThatOfAFineQuadrature) {
         return metal.value(x) < 0 ? 1.0 : 0.0;
     });
     const double volume = measure_stent(curves_).volume;
-    EXPECT_NEAR(wall * inside / double(count), volume, 0.005 * volume);
+    EXPECT_NEAR(wall * inside / double(count), volume, 0.01 * volume);
 }
 
 // A turn by the crowns from one connector to the next carries the stent onto itself.
@@ -140,7 +137,7 @@ TEST_P(Library, TurnsOntoItself) {
     const double turn = curves_.circumference() / pattern_.connectors;
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> unit(-0.5, 0.5);
-    for (int k = 0; k < 20000; ++k) {
+    for (int k = 0; k < 5000; ++k) {
         const FlatPoint x{unit(engine) * curves_.circumference(), unit(engine) * curves_.length};
         ASSERT_NEAR(map_.value(x), map_.value({x.around + turn, x.along}), 1e-12);
     }
@@ -154,7 +151,7 @@ TEST_P(Library, DistanceIsOneNearTheMetal) {
     const StentAxis axis;
     const double w = pattern_.strut_width;
     int near = 0;
-    for (int k = 0; k < 40000; ++k) {
+    for (int k = 0; k < 20000; ++k) {
         const Vec3 x = axis.place({curves_.middle_radius + 3 * w * unit(engine), 2 * pi * unit(engine), pattern_.length * unit(engine)});
         const DistanceSample s = metal.sample(x);
         ASSERT_NEAR(norm(s.gradient), 1, 1e-9);
@@ -166,7 +163,7 @@ TEST_P(Library, DistanceIsOneNearTheMetal) {
         ASSERT_LT(left, 0.01 * w);
         ASSERT_TRUE(s.value < 0 || left > -0.01 * w - curves_.edge_radius);
     }
-    EXPECT_GT(near, 10000);
+    EXPECT_GT(near, 5000);
 }
 
 TEST_P(Library, KeepsItsStrutsWhenItOpens) {
@@ -186,7 +183,7 @@ TEST(StrutMap, GridChangesNothing) {
     const StrutMap map(curves);
     std::mt19937 engine(3);
     std::uniform_real_distribution<double> unit(-0.5, 0.5);
-    for (int k = 0; k < 2000; ++k) {
+    for (int k = 0; k < 300; ++k) {
         const FlatPoint x{3 * unit(engine) * curves.circumference(), 1.5 * unit(engine) * curves.length};
         double least = 1;
         for (const Strut& strut : curves.struts)

@@ -52,7 +52,7 @@ const std::vector<StentDesign>& stent_library() {
          "link to link, opened rings 0.97 crown pitches long, links from tip to gap; the other measures are typical",
          {.layout = rings, .rings = 12, .crowns = 8, .length = 18 * mm, .diameter = 1.9 * mm, .crimped_diameter = 1.15 * mm,
           .nominal_diameter = 3.0 * mm, .strut_width = 80 * um, .strut_thickness = 80 * um, .crown_radius = 90 * um,
-          .gap = 210 * um, .connectors = 2, .connector_shape = flex, .facing = staggered, .connector_shift = 2,
+          .gap = 230 * um, .connectors = 2, .connector_shape = flex, .facing = staggered, .connector_shift = 2,
           .edge_radius = 5 * um, .alloy = "L605"}},
     };
     return table;
