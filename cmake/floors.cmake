@@ -23,7 +23,7 @@ function(patency_use folder)   # a folder's own libraries
   endif()
 endfunction()
 patency_use(config yaml-cpp nlohmann_json::nlohmann_json)
-patency_use(shape Eigen3::Eigen)
+patency_use(shape Eigen3::Eigen OpenVDB::openvdb)
 patency_use(schemes Eigen3::Eigen)
 patency_use(analysis Eigen3::Eigen)
 patency_use(io nlohmann_json::nlohmann_json spdlog::spdlog ZLIB::ZLIB hdf5::hdf5 VTK::IOXML VTK::IOLegacy VTK::CommonCore VTK::CommonDataModel VTK::CommonExecutionModel)

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <tuple>
+
+#include "patency/shape/triangle_tree.h"
 
 namespace patency {
 
@@ -42,61 +43,26 @@ std::optional<Vec3> find_side_through(const Surface& surface, const Triangle& a,
     return {};
 }
 
-/// A tree of boxes around triangles; each node halves its triangles along the longest axis of their centres.
-class BoxTree {
+/// The search for pairs in a tree of boxes.
+class Crossings {
 public:
-    explicit BoxTree(const Surface& surface) : surface_(surface), order_(surface.triangles.size()) {
-        std::iota(order_.begin(), order_.end(), 0u);
-        for (const Triangle& t : surface.triangles) {
-            const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-            boxes_.push_back(joined(joined({a, a}, {b, b}), {c, c}));
-        }
-        if (!order_.empty()) root_ = build(0, order_.size());
-    }
+    explicit Crossings(const Surface& surface)
+        : surface_(surface), tree_(surface), nodes_(tree_.nodes()), order_(tree_.order()) {}
 
-    std::vector<TrianglePair> crossings(std::size_t limit) {
+    std::vector<TrianglePair> find(std::size_t limit) {
         limit_ = limit;
-        if (!nodes_.empty()) search_within(root_);
+        if (!nodes_.empty()) search_within(0);
         std::sort(found_.begin(), found_.end(),
                   [](const auto& x, const auto& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
         return std::move(found_);
     }
 
 private:
-    static constexpr std::size_t leaf_size = 4;   // fewer make the tree deep, more are compared in vain
-    struct Node {
-        Bounds box;
-        std::size_t begin, end;    // of order_
-        std::size_t left, right;   // equal in a leaf
-    };
-
-    std::size_t build(std::size_t begin, std::size_t end) {
-        Bounds box = boxes_[order_[begin]], centres{middle(order_[begin]), middle(order_[begin])};
-        for (std::size_t k = begin; k < end; ++k) {
-            box = joined(box, boxes_[order_[k]]);
-            centres = joined(centres, {middle(order_[k]), middle(order_[k])});
-        }
-        const std::size_t index = nodes_.size();
-        nodes_.push_back({box, begin, end, 0, 0});
-        if (end - begin <= leaf_size) return index;
-        const Vec3 d = centres.high - centres.low;
-        const auto along = [&](const Vec3& x) { return d.x >= d.y && d.x >= d.z ? x.x : d.y >= d.z ? x.y : x.z; };
-        const std::size_t half = (begin + end) / 2;
-        const auto at = [&](std::size_t k) { return order_.begin() + std::ptrdiff_t(k); };
-        std::nth_element(at(begin), at(half), at(end), [&](auto i, auto j) {
-            return std::pair(along(middle(i)), i) < std::pair(along(middle(j)), j);
-        });
-        const std::size_t left = build(begin, half), right = build(half, end);
-        nodes_[index].left = left, nodes_[index].right = right;
-        return index;
-    }
-
-    Vec3 middle(std::uint32_t t) const { return 0.5 * (boxes_[t].low + boxes_[t].high); }
-    bool is_leaf(const Node& node) const { return node.left == node.right; }
+    using Node = TriangleTree::Node;
 
     void search_within(std::size_t index) {
-        const Node node = nodes_[index];
-        if (is_leaf(node)) {
+        const Node& node = nodes_[index];
+        if (node.is_leaf()) {
             for (std::size_t i = node.begin; i < node.end; ++i)
                 for (std::size_t j = i + 1; j < node.end; ++j) compare(order_[i], order_[j]);
             return;
@@ -109,10 +75,10 @@ private:
     void search_between(std::size_t one, std::size_t two) {
         const Node &a = nodes_[one], &b = nodes_[two];
         if (found_.size() >= limit_ || !overlap(a.box, b.box)) return;
-        if (is_leaf(a) && is_leaf(b)) {
+        if (a.is_leaf() && b.is_leaf()) {
             for (std::size_t i = a.begin; i < a.end; ++i)
                 for (std::size_t j = b.begin; j < b.end; ++j) compare(order_[i], order_[j]);
-        } else if (is_leaf(b) || (!is_leaf(a) && a.end - a.begin >= b.end - b.begin)) {
+        } else if (b.is_leaf() || (!a.is_leaf() && a.end - a.begin >= b.end - b.begin)) {
             search_between(a.left, two);
             search_between(a.right, two);
         } else {
@@ -122,7 +88,7 @@ private:
     }
 
     void compare(std::uint32_t i, std::uint32_t j) {
-        if (found_.size() >= limit_ || !overlap(boxes_[i], boxes_[j])) return;
+        if (found_.size() >= limit_ || !overlap(tree_.box(i), tree_.box(j))) return;
         const Triangle &a = surface_.triangles[i], &b = surface_.triangles[j];
         if (has(b, a[0]) + has(b, a[1]) + has(b, a[2]) > 1) return;   // neighbours across an edge touch there
         auto place = find_side_through(surface_, a, b);
@@ -131,17 +97,17 @@ private:
     }
 
     const Surface& surface_;
-    std::vector<Bounds> boxes_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    const TriangleTree tree_;
+    const std::vector<Node>& nodes_;
+    const std::vector<std::uint32_t>& order_;
     std::vector<TrianglePair> found_;
-    std::size_t root_ = 0, limit_ = 0;
+    std::size_t limit_ = 0;
 };
 
 }   // namespace
 
 std::vector<TrianglePair> find_crossing_triangles(const Surface& surface, std::size_t limit) {
-    return BoxTree(surface).crossings(limit);
+    return Crossings(surface).find(limit);
 }
 
 }   // namespace patency

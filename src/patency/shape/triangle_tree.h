@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tree of boxes around the triangles of a surface, and the distance to the nearest one by it. Crossing triangles are
+// triangle_pairs.h's.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "patency/shape/surface.h"
+
+namespace patency {
+
+/// Each node halves its triangles along the longest axis of their centres; node 0 is the root. The surface must stay.
+class TriangleTree {
+public:
+    struct Node {
+        Bounds box;
+        std::uint32_t begin, end;    ///< of the order
+        std::uint32_t left, right;   ///< nodes; equal in a leaf
+
+        bool is_leaf() const { return left == right; }
+    };
+
+    explicit TriangleTree(const Surface& surface);
+
+    const std::vector<Node>& nodes() const { return nodes_; }            ///< none if there is no triangle
+    const std::vector<std::uint32_t>& order() const { return order_; }   ///< triangles, those of a leaf side by side
+    const Bounds& box(std::uint32_t triangle) const { return boxes_[triangle]; }
+
+    /// The square of the distance from x to the surface [m^2], or `bound` if that is less: the nearer the bound to the
+    /// answer, the sooner it is found. There must be a triangle.
+    double square_distance(const Vec3& x, double bound) const;
+
+private:
+    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+
+    const Surface& surface_;
+    std::vector<Bounds> boxes_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+/// The place of the triangle abc nearest to x.
+Vec3 nearest_place(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
+
+}   // namespace patency
