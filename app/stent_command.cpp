@@ -63,12 +63,12 @@ Described describe(const StentPattern& pattern) {
 }
 
 void print_library() {
-    fmt::print("{:<15} {:>28} {:>9} {:>12} {:>8} {:>8}\n", "name", "outer mm: cut, crimped, open", "length mm", "strut um",
-               "alloy", "rings");
+    fmt::print("{:<15} {:>28} {:>9} {:>12} {:>8} {:>8}\n", "name", "outer mm: cut, crimped, open", "length mm",
+               "strut um", "alloy", "rings");
     for (const StentDesign& design : stent_library()) {
         const StentPattern& p = design.pattern;
-        fmt::print("{:<15} {:>12.2f} {:>8.2f} {:>6.2f} {:>9.2f} {:>12} {:>8} {:>8}\n    {}\n", design.name, 1e3 * p.diameter,
-                   1e3 * p.crimped_diameter, 1e3 * p.nominal_diameter, 1e3 * p.length,
+        fmt::print("{:<15} {:>12.2f} {:>8.2f} {:>6.2f} {:>9.2f} {:>12} {:>8} {:>8}\n    {}\n", design.name,
+                   1e3 * p.diameter, 1e3 * p.crimped_diameter, 1e3 * p.nominal_diameter, 1e3 * p.length,
                    fmt::format("{:.0f} x {:.0f}", 1e6 * p.strut_width, 1e6 * p.strut_thickness), p.alloy,
                    fmt::format("{} x {}", p.rings, p.crowns), design.description);
     }
@@ -76,9 +76,10 @@ void print_library() {
 
 void print_state(const char* state, const Described& d) {
     const CellRange cells = range_of(d.measures.cells);
-    fmt::print("  {:<10} {:>8.3f} {:>9.3f} {:>9.1f} {:>6} {:>13.3f} {:>7.3f} {:>7.3f} {:>14.3f}\n", state, 1e3 * d.pattern.diameter,
-               1e3 * d.pattern.length, 100 * d.measures.metal_ratio, d.measures.cells.size(), 1e3 * cells.inscribed,
-               1e6 * cells.smallest_area, 1e6 * cells.largest_area, 1e3 * cells.largest_perimeter);
+    fmt::print("  {:<10} {:>8.3f} {:>9.3f} {:>9.1f} {:>6} {:>13.3f} {:>7.3f} {:>7.3f} {:>14.3f}\n", state,
+               1e3 * d.pattern.diameter, 1e3 * d.pattern.length, 100 * d.measures.metal_ratio, d.measures.cells.size(),
+               1e3 * cells.inscribed, 1e6 * cells.smallest_area, 1e6 * cells.largest_area,
+               1e3 * cells.largest_perimeter);
 }
 
 Json as_json(const Described& d) {
@@ -114,14 +115,16 @@ Shown find_shown(const StentOptions& o) {
         const deck::Case config = deck::read_case(o.name);
         if (!config.stent) throw DeckError(fmt::format("{}: it has no stent", o.name));
         if (config.stent->surface) throw DeckError("stent.surface: patency stent import shows surfaces");
-        shown = {fs::path(o.name).stem().string(), "the stent of a deck", o.name, make_stent_pattern(*config.stent), config.stent->spacing};
+        shown = {fs::path(o.name).stem().string(), "the stent of a deck", o.name, make_stent_pattern(*config.stent),
+                 config.stent->spacing};
         if (config.stent->placement) shown.placement = *config.stent->placement;
     } else {
         const StentDesign& design = find_stent(o.name);
         shown = {design.name, design.description, design.source, design.pattern, {}};
     }
     if (!o.spacing.empty()) shown.spacing = parse_quantity(o.spacing, Dimension::length);
-    if (!o.at.empty()) shown.placement = {.branch = {}, .arc_length = parse_quantity(o.at, Dimension::length), .translation = {}};
+    if (!o.at.empty())
+        shown.placement = {.branch = {}, .arc_length = parse_quantity(o.at, Dimension::length), .translation = {}};
     if (!o.turn.empty()) shown.placement.rotation = parse_quantity(o.turn, Dimension::angle);
     return shown;
 }
@@ -142,16 +145,16 @@ void print_figures(const Shown& shown, const Described& cut, const Described& op
     const StentMeasures& m = cut.measures;
     const Alloy& alloy = find_alloy(p.alloy);
     fmt::print("{}: {}\n  source      {}\n", shown.name, shown.description, shown.source);
-    fmt::print("  pattern     {} {} of {} crowns, {} connectors each\n", p.rings, p.layout == StentLayout::helix ? "turns" : "rings",
-               p.crowns, p.connectors);
+    fmt::print("  pattern     {} {} of {} crowns, {} connectors each\n", p.rings,
+               p.layout == StentLayout::helix ? "turns" : "rings", p.crowns, p.connectors);
     fmt::print("  struts      {:.0f} um wide, {:.0f} um thick, crowns of radius {:.0f} um\n", 1e6 * p.strut_width,
                1e6 * p.strut_thickness, 1e6 * p.crown_radius);
-    fmt::print("  metal       {:.4g} mm^3, surface {:.4g} mm^2, {:.4g} mg of {} ({})\n", 1e9 * m.volume, 1e6 * m.surface_area,
-               1e6 * m.volume * alloy.density, alloy.name, alloy.description);
-    fmt::print("  crimped     {:.3f} mm outer diameter; foreshortening when it opens {:.1f} %\n", 1e3 * p.crimped_diameter,
-               100 * (1 - open.pattern.length / p.length));
-    fmt::print("  {:<10} {:>8} {:>9} {:>9} {:>6} {:>13} {:>15} {:>14}\n", "state", "outer mm", "length mm", "metal %", "cells",
-               "circle in mm", "areas mm^2", "free edge mm");
+    fmt::print("  metal       {:.4g} mm^3, surface {:.4g} mm^2, {:.4g} mg of {} ({})\n", 1e9 * m.volume,
+               1e6 * m.surface_area, 1e6 * m.volume * alloy.density, alloy.name, alloy.description);
+    fmt::print("  crimped     {:.3f} mm outer diameter; foreshortening when it opens {:.1f} %\n",
+               1e3 * p.crimped_diameter, 100 * (1 - open.pattern.length / p.length));
+    fmt::print("  {:<10} {:>8} {:>9} {:>9} {:>6} {:>13} {:>15} {:>14}\n", "state", "outer mm", "length mm", "metal %",
+               "cells", "circle in mm", "areas mm^2", "free edge mm");
     print_state("as cut", cut);
     print_state("open", open);
 }
@@ -184,12 +187,15 @@ void show(const StentOptions& o) {
     make_stent_particles(cut.curves, axis, spacing, particles);
     add_particles(json, folder, particles, spacing);
     write_summary(folder.file("stent.json"), json);
-    write_file(folder.file("stent.svg"),
-               draw_stent(cut.curves, m.cells, shown.name,
-                          {shown.description,
-                           fmt::format("{:.2f} mm x {:.2f} mm as cut, struts {:.0f} x {:.0f} um, metal {:.3g} mm^3, {:.1f} % of the artery",
-                                       1e3 * p.diameter, 1e3 * p.length, 1e6 * p.strut_width, 1e6 * p.strut_thickness,
-                                       1e9 * m.volume, 100 * m.metal_ratio)}));
+    write_file(
+        folder.file("stent.svg"),
+        draw_stent(
+            cut.curves, m.cells, shown.name,
+            {shown.description,
+             fmt::format(
+                 "{:.2f} mm x {:.2f} mm as cut, struts {:.0f} x {:.0f} um, metal {:.3g} mm^3, {:.1f} % of the artery",
+                 1e3 * p.diameter, 1e3 * p.length, 1e6 * p.strut_width, 1e6 * p.strut_thickness, 1e9 * m.volume,
+                 100 * m.metal_ratio)}));
     write_file(folder.file("open.svg"),
                draw_stent(open.curves, open.measures.cells, shown.name + ", open",
                           {fmt::format("{:.2f} mm x {:.2f} mm, {:.1f} % of the artery", 1e3 * open.pattern.diameter,
@@ -200,10 +206,10 @@ void import(const StentOptions& o) {
     const ImportedStent stent = recognise_stent(read_surface(o.path, o.unit, o.space));
     const Vec3 axis = stent.placement.turn({1, 0, 0}), middle = stent.placement.origin;
     fmt::print("{} (unit {})\n", o.path, o.unit);
-    fmt::print("  axis        {:.4f} {:.4f} {:.4f}, middle at {:.3f} {:.3f} {:.3f} mm, asymmetry {:.2g} %\n", axis.x, axis.y, axis.z,
-               1e3 * middle.x, 1e3 * middle.y, 1e3 * middle.z, 100 * stent.asymmetry);
-    fmt::print("  diameter    {:.3f} mm (outer)\n  length      {:.3f} mm\n  thickness   {:.1f} um\n", 1e3 * stent.diameter,
-               1e3 * stent.length, 1e6 * stent.strut_thickness);
+    fmt::print("  axis        {:.4f} {:.4f} {:.4f}, middle at {:.3f} {:.3f} {:.3f} mm, asymmetry {:.2g} %\n", axis.x,
+               axis.y, axis.z, 1e3 * middle.x, 1e3 * middle.y, 1e3 * middle.z, 100 * stent.asymmetry);
+    fmt::print("  diameter    {:.3f} mm (outer)\n  length      {:.3f} mm\n  thickness   {:.1f} um\n",
+               1e3 * stent.diameter, 1e3 * stent.length, 1e6 * stent.strut_thickness);
     fmt::print("  metal       {:.4g} mm^3, surface {:.4g} mm^2\n", 1e9 * stent.volume, 1e6 * stent.area);
     if (o.out.empty()) return;
 
@@ -219,14 +225,16 @@ void import(const StentOptions& o) {
               {"metal_volume_mm3", 1e9 * stent.volume},
               {"metal_surface_mm2", 1e6 * stent.area}};
     write_surface(folder.file("surface.vtp"), stent.surface);
-    const double spacing = o.spacing.empty() ? stent.strut_thickness / least_across : parse_quantity(o.spacing, Dimension::length);
+    const double spacing =
+        o.spacing.empty() ? stent.strut_thickness / least_across : parse_quantity(o.spacing, Dimension::length);
     StentParticles particles;
     make_stent_particles(make_surface_distance(stent.surface, spacing), stent.volume, spacing, particles);
     add_particles(json, folder, particles, spacing);
     write_summary(folder.file("stent.json"), json);
-    write_file(folder.file("stent.svg"), draw_stent(stent.surface, stent.diameter, fs::path(o.path).filename().string(),
-                                                    {fmt::format("{:.2f} mm x {:.2f} mm, struts {:.0f} um thick", 1e3 * stent.diameter,
-                                                                 1e3 * stent.length, 1e6 * stent.strut_thickness)}));
+    write_file(folder.file("stent.svg"),
+               draw_stent(stent.surface, stent.diameter, fs::path(o.path).filename().string(),
+                          {fmt::format("{:.2f} mm x {:.2f} mm, struts {:.0f} um thick", 1e3 * stent.diameter,
+                                       1e3 * stent.length, 1e6 * stent.strut_thickness)}));
 }
 
 }   // namespace
@@ -237,7 +245,8 @@ void add_stent_command(CLI::App& program, ExitCode&) {
     const auto o = std::make_shared<StentOptions>();
     command->add_subcommand("list", "the designs by name")->callback(print_library);
     const auto add_output = [&](CLI::App* sub) {
-        sub->add_option("--spacing", o->spacing, "of the particles, such as \"20 um\"; a quarter of a strut if not given");
+        sub->add_option("--spacing", o->spacing,
+                        "of the particles, such as \"20 um\"; a quarter of a strut if not given");
         sub->add_option("-o,--out", o->out, "a folder for the metal's surface, its particles, figures and a picture");
     };
     CLI::App* show_command = command->add_subcommand("show", "one design in figures");
@@ -248,7 +257,8 @@ void add_stent_command(CLI::App& program, ExitCode&) {
     add_output(show_command);
     show_command->callback([o] { show(*o); });
     CLI::App* import_command = command->add_subcommand("import", "a stent's surface: its axis and its figures");
-    import_command->add_option("surface", o->path, "the closed surface of the metal: STL, VTP, PLY, OBJ or legacy VTK")->required();
+    import_command->add_option("surface", o->path, "the closed surface of the metal: STL, VTP, PLY, OBJ or legacy VTK")
+        ->required();
     import_command->add_option("--unit", o->unit, "of its coordinates: m, cm, mm or um")->required();
     import_command->add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
     add_output(import_command);

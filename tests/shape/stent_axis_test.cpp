@@ -109,7 +109,8 @@ TEST(StentAxis, TheFrameTurnsAsLittleAsItCan) {
     for (double along = -5e-3; along < 5e-3; along += 1e-3) {
         const StentPoint p{1e-3, 0.5, along}, q{1e-3, 0.5, along + e};
         const Vec3 change = (axis.outward(q) - axis.outward(p)) / e;   // along the tangent only
-        EXPECT_LT(norm(change - dot(change, axis.tangent(p)) * axis.tangent(p)), 2);   // 1/m, where the curvature is 172/m
+        EXPECT_LT(norm(change - dot(change, axis.tangent(p)) * axis.tangent(p)),
+                  2);   // 1/m, where the curvature is 172/m
         EXPECT_LT(std::abs(dot(change, axis.tangent(p))), 180);
     }
 }

@@ -89,7 +89,8 @@ TEST_P(Library, StrutsHaveTheirWidthAndThicknessEverywhere) {
                 const FlatPoint at{a.around + t * da, a.along + t * dl};
                 for (double side : {1.0, -1.0}) {
                     const auto beside = [&](double h) {
-                        return axis.place({r, (at.around - side * h * dl / length) / r, at.along + side * h * da / length});
+                        return axis.place(
+                            {r, (at.around - side * h * dl / length) / r, at.along + side * h * da / length});
                     };
                     const double edge = metal.value(beside(strut.half_width));
                     const double middle = map_.value(at);
@@ -124,7 +125,8 @@ TEST_P(Library, VolumeIsThatOfAFineQuadrature) {
         // The points k (a, b, c) mod 1 of the golden section's kin fill a cube evenly (R3 sequence).
         const auto part = [&](double g) { return std::fmod(0.5 + double(k + 1) * g, 1.0); };
         const double radius = std::sqrt(inner * inner + part(0.8191725133961645) * (outer * outer - inner * inner));
-        const Vec3 x = axis.place({radius, 2 * pi * part(0.6710436067037893), curves_.length * (part(0.5497004779019703) - 0.5)});
+        const Vec3 x =
+            axis.place({radius, 2 * pi * part(0.6710436067037893), curves_.length * (part(0.5497004779019703) - 0.5)});
         return metal.value(x) < 0 ? 1.0 : 0.0;
     });
     const double volume = measure_stent(curves_).volume;
@@ -152,7 +154,8 @@ TEST_P(Library, DistanceIsOneNearTheMetal) {
     const double w = pattern_.strut_width;
     int near = 0;
     for (int k = 0; k < 20000; ++k) {
-        const Vec3 x = axis.place({curves_.middle_radius + 3 * w * unit(engine), 2 * pi * unit(engine), pattern_.length * unit(engine)});
+        const Vec3 x = axis.place(
+            {curves_.middle_radius + 3 * w * unit(engine), 2 * pi * unit(engine), pattern_.length * unit(engine)});
         const DistanceSample s = metal.sample(x);
         ASSERT_NEAR(norm(s.gradient), 1, 1e-9);
         if (std::abs(s.value) > w) continue;
@@ -209,7 +212,8 @@ TEST(StentPattern, AmplitudeFillsTheLength) {
 // A wall without a connector, straight struts parallel to the axis: a closed form for the area.
 TEST(StentPattern, AreaOfAPlainRing) {
     StentPattern p = find_stent("paper").pattern;
-    p.rings = 1, p.connectors = 0, p.crowns = 4, p.length = 2e-3, p.crimped_diameter = 1.9e-3, p.nominal_diameter = 2.1e-3;
+    p.rings = 1, p.connectors = 0, p.crowns = 4, p.length = 2e-3, p.crimped_diameter = 1.9e-3,
+    p.nominal_diameter = 2.1e-3;
     p.crown_radius = pi * (p.diameter - p.strut_thickness) / 16;   // a quarter of the pitch: struts along the axis
     const double straight = ring_amplitude(p) - 2 * p.crown_radius;
     const double centreline = 8 * straight + 8 * pi * p.crown_radius;
@@ -237,25 +241,25 @@ TEST_P(Refused, NamesTheParameterAndItsLimit) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Stents, Refused,
-    ::testing::Values(Impossible{"crown_radius is 0.05 mm, at least 0.06 mm", [](StentPattern& p) { p.crown_radius = 50e-6; }},
-                      Impossible{"crown_radius is 0.6 mm, at most", [](StentPattern& p) { p.crown_radius = 600e-6; }},
-                      Impossible{"length is 4 mm, at least", [](StentPattern& p) { p.length = 4e-3; }},
-                      Impossible{"crimped_diameter", [](StentPattern& p) { p.crimped_diameter = 0.4e-3; }},
-                      Impossible{"nominal_diameter", [](StentPattern& p) { p.nominal_diameter = 8e-3; }},
-                      Impossible{"gap", [](StentPattern& p) { p.gap = 0; }},
-                      Impossible{"connectors is 4, it must divide crowns, 6", [](StentPattern& p) { p.connectors = 4; }},
-                      Impossible{"connectors is 0", [](StentPattern& p) { p.connectors = 0; }},
-                      Impossible{"strut_width", [](StentPattern& p) { p.strut_width = std::nan(""); }},
-                      Impossible{"strut_thickness", [](StentPattern& p) { p.strut_thickness = 0.6e-3; }},
-                      Impossible{"rings", [](StentPattern& p) { p.rings = 0; }},
-                      Impossible{"edge_radius", [](StentPattern& p) { p.edge_radius = 60e-6; }},
-                      Impossible{"connector_swing", [](StentPattern& p) { p.connector_swing = 50e-6; }},
-                      Impossible{"bend", [](StentPattern& p) {
-                                     p.connector_shape = ConnectorShape::flex, p.connector_swing = 400e-6;
-                                 }},
-                      Impossible{"overlap", [](StentPattern& p) {   // connectors so wide that they meet
-                                     p.connectors = 6, p.connector_width = 0.996e-3;
-                                 }}));
+    ::testing::Values(
+        Impossible{"crown_radius is 0.05 mm, at least 0.06 mm", [](StentPattern& p) { p.crown_radius = 50e-6; }},
+        Impossible{"crown_radius is 0.6 mm, at most", [](StentPattern& p) { p.crown_radius = 600e-6; }},
+        Impossible{"length is 4 mm, at least", [](StentPattern& p) { p.length = 4e-3; }},
+        Impossible{"crimped_diameter", [](StentPattern& p) { p.crimped_diameter = 0.4e-3; }},
+        Impossible{"nominal_diameter", [](StentPattern& p) { p.nominal_diameter = 8e-3; }},
+        Impossible{"gap", [](StentPattern& p) { p.gap = 0; }},
+        Impossible{"connectors is 4, it must divide crowns, 6", [](StentPattern& p) { p.connectors = 4; }},
+        Impossible{"connectors is 0", [](StentPattern& p) { p.connectors = 0; }},
+        Impossible{"strut_width", [](StentPattern& p) { p.strut_width = std::nan(""); }},
+        Impossible{"strut_thickness", [](StentPattern& p) { p.strut_thickness = 0.6e-3; }},
+        Impossible{"rings", [](StentPattern& p) { p.rings = 0; }},
+        Impossible{"edge_radius", [](StentPattern& p) { p.edge_radius = 60e-6; }},
+        Impossible{"connector_swing", [](StentPattern& p) { p.connector_swing = 50e-6; }},
+        Impossible{"bend",
+                   [](StentPattern& p) { p.connector_shape = ConnectorShape::flex, p.connector_swing = 400e-6; }},
+        Impossible{"overlap", [](StentPattern& p) {   // connectors so wide that they meet
+                       p.connectors = 6, p.connector_width = 0.996e-3;
+                   }}));
 
 TEST(StentLibrary, AnUnknownNameHasASuggestion) {
     try {

@@ -30,11 +30,23 @@ TEST(StentOfCase, ADesignIsTheLibrarysWithTheDecksAlloy) {
 TEST(StentOfCase, APatternIsTheDecks) {
     const StentPattern p = find_stent("two_link").pattern;
     deck::Stent stent;
-    stent.pattern = {.layout = deck::StentLayout::rings, .rings = p.rings, .crowns = p.crowns, .length = p.length, .diameter = p.diameter,
-                     .crimped_diameter = p.crimped_diameter, .nominal_diameter = p.nominal_diameter, .strut_width = p.strut_width,
-                     .strut_thickness = p.strut_thickness, .crown_radius = p.crown_radius, .gap = p.gap, .connectors = p.connectors,
-                     .connector_shift = p.connector_shift, .connector_shape = deck::ConnectorShape::flex,
-                     .facing = deck::CrownFacing::staggered, .connector_width = {}, .connector_swing = p.connector_swing};
+    stent.pattern = {.layout = deck::StentLayout::rings,
+                     .rings = p.rings,
+                     .crowns = p.crowns,
+                     .length = p.length,
+                     .diameter = p.diameter,
+                     .crimped_diameter = p.crimped_diameter,
+                     .nominal_diameter = p.nominal_diameter,
+                     .strut_width = p.strut_width,
+                     .strut_thickness = p.strut_thickness,
+                     .crown_radius = p.crown_radius,
+                     .gap = p.gap,
+                     .connectors = p.connectors,
+                     .connector_shift = p.connector_shift,
+                     .connector_shape = deck::ConnectorShape::flex,
+                     .facing = deck::CrownFacing::staggered,
+                     .connector_width = {},
+                     .connector_swing = p.connector_swing};
     const StrutCurves own = make_strut_curves(make_stent_pattern(stent)), library = make_strut_curves(p);
     ASSERT_EQ(own.struts.size(), library.struts.size());
     for (std::size_t k = 0; k < own.struts.size(); ++k)

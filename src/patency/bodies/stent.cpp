@@ -58,7 +58,9 @@ std::vector<Vec3> points_in_plane(const StrutCurves& curves, double area, double
     std::sort(order.begin() + std::ptrdiff_t(inside), order.end());
     std::vector<Vec3> metal, around;
     for (std::size_t k = 0; k < order.size(); ++k) (k < inside ? metal : around).push_back(near[order[k]]);
-    relax_points(metal, around, lumen, {.spacing = std::sqrt(lattice.cell_volume()), .wall_thickness = thickness, .fluid_end = {}, .wall_end = {}});
+    relax_points(
+        metal, around, lumen,
+        {.spacing = std::sqrt(lattice.cell_volume()), .wall_thickness = thickness, .fluid_end = {}, .wall_end = {}});
     return metal;
 }
 
@@ -73,8 +75,9 @@ double largest_stent_spacing(const StrutCurves& curves) {
 void make_stent_particles(const StrutCurves& curves, const StentAxis& axis, double spacing, StentParticles& particles) {
     const double largest = largest_stent_spacing(curves);
     if (!(spacing > 0) || spacing > largest * (1 + 1e-9))
-        throw GeometryError(fmt::format("A spacing of {:.3g} um does not put {} particles across the stent's struts: at most {:.3g} um.",
-                                        1e6 * spacing, least_across, 1e6 * largest));
+        throw GeometryError(fmt::format(
+            "A spacing of {:.3g} um does not put {} particles across the stent's struts: at most {:.3g} um.",
+            1e6 * spacing, least_across, 1e6 * largest));
     const StentMeasures measures = measure_stent(curves);
     const std::vector<Vec3> plane = points_in_plane(curves, measures.plan_area, spacing);
     const std::size_t layers = std::size_t(std::max(double(least_across), std::round(curves.thickness / spacing)));

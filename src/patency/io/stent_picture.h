@@ -15,6 +15,7 @@ std::string draw_stent(const StrutCurves& curves, const std::vector<StentCell>& 
                        const std::vector<std::string>& lines);
 
 /// The outer faces of a stent that came as a surface, in its own frame (stent_import.h), of this outer diameter [m].
-std::string draw_stent(const Surface& surface, double diameter, const std::string& title, const std::vector<std::string>& lines);
+std::string draw_stent(const Surface& surface, double diameter, const std::string& title,
+                       const std::vector<std::string>& lines);
 
 }   // namespace patency

@@ -44,10 +44,10 @@ StentAxis::StentAxis(std::span<const Vec3> line, double arc_length, double rotat
     if (stations_.size() < 2) throw GeometryError("The stent's line needs at least two different points.");
     const double whole = stations_.back().along;
     if (!(arc_length - length / 2 >= 0) || !(arc_length + length / 2 <= whole))
-        throw GeometryError(fmt::format("A stent of {:.4g} mm with its middle at {:.4g} mm does not lie on the line of {:.4g} mm: "
-                                        "place it between {:.4g} and {:.4g} mm.",
-                                        1e3 * length, 1e3 * arc_length, 1e3 * whole, 1e3 * length / 2,
-                                        1e3 * (whole - length / 2)));
+        throw GeometryError(
+            fmt::format("A stent of {:.4g} mm with its middle at {:.4g} mm does not lie on the line of {:.4g} mm: "
+                        "place it between {:.4g} and {:.4g} mm.",
+                        1e3 * length, 1e3 * arc_length, 1e3 * whole, 1e3 * length / 2, 1e3 * (whole - length / 2)));
 
     const std::size_t n = stations_.size();
     const auto direction = [&](std::size_t k) { return normalized(stations_[k + 1].at - stations_[k].at); };
@@ -70,16 +70,17 @@ StentAxis::StentAxis(std::span<const Vec3> line, double arc_length, double rotat
         if (!is_used(a.along, b.along)) continue;
         const double bend = (b.along - a.along) / norm(b.tangent - a.tangent);
         if (!(bend > radius))
-            throw GeometryError(
-                fmt::format("At {:.4g} mm the line bends to a radius of {:.3g} mm, less than the stent's {:.3g} mm: its "
-                            "struts would fold there. Smooth the line or place the stent elsewhere.",
-                            1e3 * (a.along + arc_length), 1e3 * bend, 1e3 * radius));
+            throw GeometryError(fmt::format(
+                "At {:.4g} mm the line bends to a radius of {:.3g} mm, less than the stent's {:.3g} mm: its "
+                "struts would fold there. Smooth the line or place the stent elsewhere.",
+                1e3 * (a.along + arc_length), 1e3 * bend, 1e3 * radius));
         for (std::size_t j = 0; j + 1 < k; ++j)
             if (is_used(stations_[j].along, stations_[j].along) && is_used(b.along, b.along) &&
                 b.along - stations_[j].along > std::numbers::pi * radius && norm(b.at - stations_[j].at) < 2 * radius)
-                throw GeometryError(fmt::format("The line comes back to itself between {:.4g} and {:.4g} mm: the stent "
-                                                "would run through itself.",
-                                                1e3 * (stations_[j].along + arc_length), 1e3 * (b.along + arc_length)));
+                throw GeometryError(
+                    fmt::format("The line comes back to itself between {:.4g} and {:.4g} mm: the stent "
+                                "would run through itself.",
+                                1e3 * (stations_[j].along + arc_length), 1e3 * (b.along + arc_length)));
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The line that a stent lies along, as coordinates: radius, angle, place along. A straight stent is bent along a vessel
-// by a frame that turns as little as it can (docs/THEORY.md section 14).
+// by a frame that turns as little as it can (docs/THEORY.md section 16).
 #pragma once
 
 #include <span>
@@ -35,7 +35,7 @@ public:
     StentPoint coordinates(const Vec3& x) const;
     Vec3 outward(const StentPoint& p) const;   ///< unit, away from the axis
     Vec3 tangent(const StentPoint& p) const;   ///< unit, along the axis
-    /// Length along there over length along the axis: 1 - curvature x distance towards the inner side of the bend.
+    /// Length along there over length along the axis: THEORY (16.5).
     double stretch(const StentPoint& p) const;
 
 private:

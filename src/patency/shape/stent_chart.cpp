@@ -183,9 +183,10 @@ StentMeasures measure_stent(const StrutCurves& curves, double resolution) {
     if (pieces.size() != 1)
         throw GeometryError(fmt::format("The stent falls into {} pieces: its struts do not join.", pieces.size()));
     if (curves.cells >= 0 && result.cells.size() != std::size_t(curves.cells))
-        throw GeometryError(fmt::format("The stent has {} cells where its pattern has {}: struts overlap. Reduce strut_width, "
-                                        "connector_width or connector_swing, or widen gap.",
-                                        result.cells.size(), curves.cells));
+        throw GeometryError(
+            fmt::format("The stent has {} cells where its pattern has {}: struts overlap. Reduce strut_width, "
+                        "connector_width or connector_swing, or widen gap.",
+                        result.cells.size(), curves.cells));
     return result;
 }
 

@@ -17,12 +17,13 @@ struct StentCell {
     FlatPoint centre;   ///< of that circle
 };
 
+/// THEORY (16.4).
 struct StentMeasures {
-    double plan_area;       ///< of the metal at the middle of the wall [m^2]
-    double edge_length;     ///< of all strut edges there [m]
-    double volume;          ///< of the metal, rounded edges taken off [m^3]
-    double surface_area;    ///< [m^2]
-    double metal_ratio;     ///< outer face of the metal over the cylinder around it: metal to artery
+    double plan_area;      ///< of the metal at the middle of the wall [m^2]
+    double edge_length;    ///< of all strut edges there [m]
+    double volume;         ///< of the metal, rounded edges taken off [m^3]
+    double surface_area;   ///< [m^2]
+    double metal_ratio;    ///< outer face of the metal over the cylinder around it: metal to artery
     std::vector<StentCell> cells;
 };
 

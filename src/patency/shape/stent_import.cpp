@@ -50,7 +50,8 @@ ImportedStent recognise_stent(Surface read) {
     if (const std::string why = refusals(checked.findings); !why.empty())
         throw GeometryError("The surface cannot be used as a stent:\n" + why);
     Surface surface = std::move(checked.surface);
-    if (!checked.ends.empty() || !(checked.volume > 0)) throw GeometryError("The surface is open: a stent's metal must be closed.");
+    if (!checked.ends.empty() || !(checked.volume > 0))
+        throw GeometryError("The surface is open: a stent's metal must be closed.");
 
     const Moments m = moments(surface);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m.second);
@@ -62,9 +63,10 @@ ImportedStent recognise_stent(Surface read) {
     const int axis = asymmetry_about(0) < asymmetry_about(2) ? 0 : 2;   // the middle one cannot stand out
     const double asymmetry = asymmetry_about(axis);
     if (!(asymmetry < largest_asymmetry))
-        throw GeometryError(fmt::format("The surface has no axis as a stent has: across the most likely one its moments differ by "
-                                        "{:.0f} %, at most {:.0f} % are allowed.",
-                                        100 * asymmetry, 100 * largest_asymmetry));
+        throw GeometryError(
+            fmt::format("The surface has no axis as a stent has: across the most likely one its moments differ by "
+                        "{:.0f} %, at most {:.0f} % are allowed.",
+                        100 * asymmetry, 100 * largest_asymmetry));
     const Eigen::Vector3d along = solver.eigenvectors().col(axis);
     Vec3 direction{along[0], along[1], along[2]};
     if (direction.x + direction.y + direction.z < 0) direction = -direction;

@@ -16,9 +16,9 @@ namespace patency {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double chord_error = 1.0 / 2000;    // of the width, between an arc and its chord
-constexpr double least_crown_radius = 0.6;    // strut widths; at 0.5 the inside of a crown is a cusp
-constexpr double least_clearance = 0.25;      // strut widths between tips that are not joined
+constexpr double chord_error = 1.0 / 2000;   // of the width, between an arc and its chord
+constexpr double least_crown_radius = 0.6;   // strut widths; at 0.5 the inside of a crown is a cusp
+constexpr double least_clearance = 0.25;     // strut widths between tips that are not joined
 constexpr int connector_pieces = 64;
 
 FlatPoint operator+(const FlatPoint& a, const FlatPoint& b) { return {a.around + b.around, a.along + b.along}; }
@@ -55,7 +55,7 @@ double least_amplitude(double half_pitch, double radius) {
     return 2 * radius + std::sqrt(std::max(0.0, 4 * radius * radius - half_pitch * half_pitch));
 }
 
-// The length of the centreline from a peak to the next valley.
+// The length of the centreline from a peak to the next valley: THEORY (16.1).
 double path_length(double half_pitch, double amplitude, double radius) {
     const double rise = amplitude - 2 * radius;
     const double strut = std::sqrt(std::max(0.0, half_pitch * half_pitch + rise * rise - 4 * radius * radius));
@@ -108,8 +108,8 @@ void expect_crowns(const StentPattern& p) {
                        mm((1 + q) * needed + q * gap_between_centrelines(p) + p.strut_width), p.rings));
     const double reach = 2 * crowns_per_turn(p) * path_length(pitch / 2, amplitude, p.crown_radius);
     const double widest = reach / pi + p.strut_thickness;
-    expect(p.nominal_diameter <= widest,
-           fmt::format("nominal_diameter is {}, but the struts are straight at {}", mm(p.nominal_diameter), mm(widest)));
+    expect(p.nominal_diameter <= widest, fmt::format("nominal_diameter is {}, but the struts are straight at {}",
+                                                     mm(p.nominal_diameter), mm(widest)));
 }
 
 void expect_connectors(const StentPattern& p) {
@@ -158,7 +158,7 @@ std::vector<FlatPoint> weave(const std::vector<FlatPoint>& centres, double radiu
     return points;
 }
 
-// From tip to tip: `aside` more around, `rise` more along.
+// From tip to tip: `aside` more around, `rise` more along. THEORY (16.3).
 Strut make_connector(const StentPattern& p, const FlatPoint& from, double aside, double rise) {
     const double width = p.connector_width > 0 ? p.connector_width : p.strut_width;
     const double largest = 3 * std::sqrt(3.0) / 8;   // of the swing's shape
@@ -220,8 +220,7 @@ void add_helix(const StentPattern& p, StrutCurves& curves) {
     const int count = std::clamp(p.connectors * (p.rings - 1) + 1, 2, peaks);
     for (int c = 0; c < count; ++c) {
         const int k = 2 * int(std::lround(double(c) * (peaks - 1) / (count - 1)));
-        curves.struts.push_back(
-            make_connector(p, {k * pitch / 2, start + height(k) + amplitude / 2}, 0, rise));
+        curves.struts.push_back(make_connector(p, {k * pitch / 2, start + height(k) + amplitude / 2}, 0, rise));
     }
     curves.cells = count - 1;
 }
@@ -278,7 +277,8 @@ const Alloy& find_alloy(const std::string& name) {
         if (alloy.name == name) return alloy;
         names.push_back(alloy.name);
     }
-    throw GeometryError(fmt::format("No alloy {}; there are {}.", double_quoted(shortened(name)), join(names, ", ", " and ")));
+    throw GeometryError(
+        fmt::format("No alloy {}; there are {}.", double_quoted(shortened(name)), join(names, ", ", " and ")));
 }
 
 }   // namespace patency

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stent as a pattern of struts cut from a tube: typed parameters -> centrelines on the unrolled tube (docs/THEORY.md
-// section 14). The tube is unrolled at its middle radius, where a strut has its width. All diameters are OUTER ones.
+// section 16). The tube is unrolled at its middle radius, where a strut has its width. All diameters are OUTER ones.
 #pragma once
 
 #include <string>
@@ -71,7 +71,7 @@ struct StrutCurves {
 /// made, naming the parameter and its limit.
 StrutCurves make_strut_curves(const StentPattern& pattern);
 
-/// From the lowest tip of a ring's centreline to its highest [m], which follows from length, rings and gap.
+/// From the lowest tip of a ring's centreline to its highest [m], which follows from length, rings and gap: THEORY (16.2).
 double ring_amplitude(const StentPattern& pattern);
 
 /// The pattern opened or crimped to another outer diameter: struts keep their length and crowns their radius, so rings

@@ -46,7 +46,8 @@ StrutMap::StrutMap(const StrutCurves& curves) : circumference_(curves.circumfere
         const double reach = 0.5 * across * std::hypot(cell_around_, cell_along_) * (1 + 1e-9);
         values.resize(from.size());
         double least = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < from.size(); ++k) least = std::min(least, values[k] = value(pieces_[from[k]], middle));
+        for (std::size_t k = 0; k < from.size(); ++k)
+            least = std::min(least, values[k] = value(pieces_[from[k]], middle));
         std::vector<std::uint32_t> found;
         for (std::size_t k = 0; k < from.size(); ++k)
             if (values[k] <= least + 2 * reach) found.push_back(from[k]);

@@ -11,10 +11,10 @@ namespace patency {
 
 /// The nearest strut seen from a place.
 struct StrutSample {
-    double value;         ///< to the strut's edge [m], negative in the metal
-    FlatPoint foot;       ///< the nearest place of its centreline [m]
-    FlatPoint direction;  ///< unit, from there to the place
-    double half_width;    ///< [m]
+    double value;          ///< to the strut's edge [m], negative in the metal
+    FlatPoint foot;        ///< the nearest place of its centreline [m]
+    FlatPoint direction;   ///< unit, from there to the place
+    double half_width;     ///< [m]
 };
 
 class StrutMap {

@@ -27,7 +27,8 @@ StentPattern make_stent_pattern(const deck::Stent& stent) {
                    .crown_radius = p.crown_radius,
                    .gap = p.gap,
                    .connectors = p.connectors,
-                   .connector_shape = p.connector_shape == deck::ConnectorShape::flex ? ConnectorShape::flex : ConnectorShape::straight,
+                   .connector_shape = p.connector_shape == deck::ConnectorShape::flex ? ConnectorShape::flex
+                                                                                      : ConnectorShape::straight,
                    .facing = p.facing == deck::CrownFacing::staggered ? CrownFacing::staggered : CrownFacing::aligned,
                    .connector_width = p.connector_width.value_or(0),
                    .connector_swing = p.connector_swing,
@@ -42,7 +43,8 @@ StentPattern make_stent_pattern(const deck::Stent& stent) {
     return pattern;
 }
 
-StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves, std::span<const Vec3> line) {
+StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves,
+                          std::span<const Vec3> line) {
     if (placement.translation) {
         const double c = std::cos(placement.rotation), s = std::sin(placement.rotation);
         const RigidMotion turned{{{1, 0, 0}, {0, c, -s}, {0, s, c}}, {}};

@@ -16,6 +16,7 @@ StentPattern make_stent_pattern(const deck::Stent& stent);
 
 /// Where the stent lies: `line` is the centreline of placement.branch [m], needed if it lies at an arc length. Throws
 /// DeckError without it, GeometryError if the stent does not lie on it (StentAxis).
-StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves, std::span<const Vec3> line = {});
+StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves,
+                          std::span<const Vec3> line = {});
 
 }   // namespace patency
