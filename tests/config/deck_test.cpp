@@ -40,6 +40,20 @@ TEST(Deck, AWaveformHasTheDimensionOfItsOpening) {
     EXPECT_DOUBLE_EQ(c.openings.at("side").waveform->values[1], 0.2);
 }
 
+TEST(Deck, AStentHasItsMeasuresAndItsPlace) {
+    const Stent named = *parse_case(valid_decks[1]).stent;
+    EXPECT_EQ(named.design, "open_cell");
+    EXPECT_EQ(named.placement->branch, "left");
+    EXPECT_DOUBLE_EQ(*named.placement->arc_length, 14.2e-3);
+    EXPECT_NEAR(named.placement->rotation, 3.14159265358979 / 6, 1e-14);
+    const Stent own = *parse_case(valid_decks.back()).stent;
+    EXPECT_EQ(own.pattern->crowns, 6);
+    EXPECT_EQ(own.pattern->connector_shape, ConnectorShape::flex);
+    EXPECT_DOUBLE_EQ(own.pattern->strut_thickness, 1e-4);
+    EXPECT_EQ(own.placement->direction, (Vec3{0, 1, 1}));
+    EXPECT_FALSE(parse_case(pipe_deck).stent);
+}
+
 TEST(Deck, WhatIsWrittenReadsBackToTheIdenticalCase) {
     for (const std::string& deck : valid_decks) {
         const Case c = parse_case(deck, "deck", "/decks/a");

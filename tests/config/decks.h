@@ -67,6 +67,11 @@ openings:
   d: {type: coronary, proximal_resistance: "1e9 Pa s/m^3", distal_resistance: "3 mmHg min/mL", compliance: "1e-6 cm^5/dyn", distal_pressure: "1 kPa"}
 aorta: {pressure: "93 mmHg"}
 bed: {state: resting, flow: "120 mL/min", murray_exponent: 2.5, venous_pressure: "6 mmHg"}
+stent:
+  design: open_cell
+  alloy: PtCr
+  spacing: "20 um"
+  placement: {branch: left, arc_length: "14.2 mm", rotation: "30 deg"}
 initial: {velocity: parabola, speed: "0.1 m/s", pressure: linear}
 numerics:
   scheme: paper
@@ -130,12 +135,19 @@ geometry:
       - {name: trunk, from: ["0 mm", "0 mm", "0 mm"], to: ["10 mm", "0 mm", "0 mm"], diameters: ["4 mm", "3.5 mm"]}
       - {name: left, from: ["10 mm", "0 mm", "0 mm"], to: ["17 mm", "7 mm", "0 mm"], diameters: ["3 mm", "2 mm"]}
 blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
+stent: {surface: stents/a.stl, unit: mm, alloy: nitinol}
 numerics: {spacing: "0.2 mm", duration: "1 s"}
 )",
     R"(version: 1
 geometry: {shape: {type: cone, diameters: ["4 mm", "2 mm"], length: "20 mm", axis: [1, 1, 0.5]}}
 blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
 wall: {slip: free_slip}
+stent:
+  pattern: {layout: rings, rings: 8, crowns: 6, length: "10 mm", diameter: "2 mm", crimped_diameter: "1.2 mm",
+    nominal_diameter: "3.3 mm", strut_width: "0.1 mm", strut_thickness: "100 um", crown_radius: "0.15 mm", gap: "0.3 mm",
+    connectors: 3, connector_shift: 1, connector_shape: flex, facing: staggered, connector_width: "90 um",
+    connector_swing: "50 um", edge_radius: "4 um"}
+  placement: {translation: ["1 mm", "2 mm", "3 mm"], direction: [0, 1, 1], rotation: "0.5 rad"}
 numerics: {spacing: "0.2 mm", duration: "1 s"}
 )",
 };

@@ -177,6 +177,11 @@ TEST(Mistakes, AcrossKeys) {
               only("18:67: output.probes.1.name: a second \"a\"; names must differ"));
     EXPECT_EQ(mistakes_in(pipe_with("length: \"15 mm\"", "length: \"15 mm\", axis: [0, 0, 0]")),
               only("4:64: geometry.shape.axis: must not be zero"));
+    EXPECT_EQ(mistakes_in(pipe_and("stent: {surface: a.stl}\n")),
+              only("18:18: stent.surface: needs stent.unit: a surface file does not say whether it counts in mm or in m"));
+    EXPECT_EQ(mistakes_in(pipe_and("stent: {surface: a.stl, unit: inch}\n")), only("18:31: stent.unit: \"inch\" is not one of m, cm, mm or um"));
+    EXPECT_EQ(mistakes_in(pipe_and("stent: {design: paper, placement: {translation: [\"0 m\", \"0 m\", \"0 m\"], direction: [0, 0, 0]}}\n")),
+              only("18:89: stent.placement.direction: must not be zero"));
 }
 
 TEST(Mistakes, WaveformOfAnotherDimension) {

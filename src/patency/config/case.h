@@ -65,6 +65,15 @@ inline Words words(Precision) { return {"mixed", "double"}; }
 enum class PressureReference { moving, fixed };
 inline Words words(PressureReference) { return {"moving", "fixed"}; }
 
+enum class StentLayout { rings, helix };
+inline Words words(StentLayout) { return {"rings", "helix"}; }
+
+enum class CrownFacing { aligned, staggered };
+inline Words words(CrownFacing) { return {"aligned", "staggered"}; }
+
+enum class ConnectorShape { straight, flex };
+inline Words words(ConnectorShape) { return {"straight", "flex"}; }
+
 /// The deck's word for a choice.
 template <class E>
 std::string_view word_of(E value) {
@@ -207,6 +216,44 @@ struct Bed {
     bool operator==(const Bed&) const = default;
 };
 
+/// A stent by its measures (patency/shape/stent_pattern.h says what they are); diameters are outer ones.
+struct StentPattern {
+    StentLayout layout = StentLayout::rings;
+    int rings = 0, crowns = 0;
+    double length = 0;                                             ///< m
+    double diameter = 0, crimped_diameter = 0, nominal_diameter = 0;   ///< m
+    double strut_width = 0, strut_thickness = 0;                   ///< m
+    double crown_radius = 0, gap = 0;                              ///< m
+    int connectors = 1, connector_shift = 0;
+    ConnectorShape connector_shape = ConnectorShape::straight;
+    CrownFacing facing = CrownFacing::aligned;
+    std::optional<double> connector_width;   ///< m; absent: the struts'
+    double connector_swing = 0;              ///< m
+    double edge_radius = 5e-6;               ///< m
+    bool operator==(const StentPattern&) const = default;
+};
+
+/// Where the stent's middle lies: at an arc length of a branch, or by translation and rotation.
+struct StentPlacement {   // exactly one of arc_length, translation
+    std::optional<std::string> branch;   ///< absent: the only one
+    std::optional<double> arc_length;    ///< m from the branch's start
+    std::optional<Vec3> translation;     ///< m
+    Vec3 direction{1, 0, 0};             ///< translation: of the stent's axis, any length
+    double rotation = 0;                 ///< rad, around the axis
+    bool operator==(const StentPlacement&) const = default;
+};
+
+struct Stent {   // exactly one of design, pattern, surface
+    std::optional<std::string> design;   ///< a name of the library
+    std::optional<StentPattern> pattern;
+    std::optional<std::filesystem::path> surface;   ///< closed, of the metal
+    std::optional<std::string> unit;                ///< of the surface's coordinates
+    std::optional<std::string> alloy;               ///< absent: the design's
+    std::optional<StentPlacement> placement;
+    std::optional<double> spacing;   ///< m between its particles; absent: a quarter of a strut
+    bool operator==(const Stent&) const = default;
+};
+
 struct Initial {
     InitialVelocity velocity = InitialVelocity::rest;
     std::optional<double> speed;   ///< m/s: mean (plug, parabola) or amplitude (taylor_green)
@@ -272,6 +319,7 @@ struct Case {
     std::map<std::string, Opening> openings;
     Aorta aorta;
     Bed bed;
+    std::optional<Stent> stent;
     Initial initial;
     Numerics numerics;
     Output output;

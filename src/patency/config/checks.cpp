@@ -21,6 +21,7 @@ public:
         check_geometry();
         check_blood();
         check_openings();
+        check_stent();
         check_initial();
         check_output();
         check_runs();
@@ -112,6 +113,18 @@ private:
                "leaves fewer than 4 particles across the narrowest place, " + format_quantity(narrowest, "mm") +
                    "; at least 12 give a sensible answer",
                {"geometry.shape"});
+    }
+
+    void check_stent() {
+        if (!case_.stent) return;
+        const Stent& stent = *case_.stent;
+        expect(!stent.surface || stent.unit, "stent.surface", "needs stent.unit: a surface file does not say whether it counts in mm or in m");
+        if (stent.unit) {
+            const std::vector<std::string> known = unit_names(Dimension::length);
+            expect(std::find(known.begin(), known.end(), *stent.unit) != known.end(), "stent.unit",
+                   double_quoted(*stent.unit) + " is not one of " + join(known, ", ", " or "));
+        }
+        if (stent.placement) expect(norm(stent.placement->direction) > 0, "stent.placement.direction", "must not be zero");
     }
 
     void check_blood() {

@@ -285,6 +285,78 @@ const Table& table_of<Bed>() {
 }
 
 template <>
+const Table& table_of<StentPattern>() {
+    const Range width = above_up_to(0, 1e-3), length = above_up_to(0, 0.2);
+    const auto measure = [](std::string key, std::string help, const Range& range, std::string example) {
+        return Row{.key = std::move(key), .help = std::move(help), .unit = "mm", .range = range, .example = std::move(example), .need = always};
+    };
+    static const Table table = make_table<StentPattern>("Struts cut from a tube; all diameters are outer ones.", {
+        row(&StentPattern::layout, {.key = "layout", .help = "rings of crowns, or one wave of crowns wound as a helix"}),
+        row(&StentPattern::rings, {.key = "rings", .help = "rings; turns of a helix", .range = between(1, 200), .example = "8", .need = always}),
+        row(&StentPattern::crowns, {.key = "crowns", .help = "peaks per ring; a turn of a helix has half a peak more",
+                                    .range = between(2, 60), .example = "6", .need = always}),
+        row(&StentPattern::length, measure("length", "the length over all", length, "10 mm")),
+        row(&StentPattern::diameter, measure("diameter", "the diameter as cut", length, "2 mm")),
+        row(&StentPattern::crimped_diameter, measure("crimped_diameter", "the diameter on the balloon", length, "1.2 mm")),
+        row(&StentPattern::nominal_diameter, measure("nominal_diameter", "the diameter opened", length, "3.3 mm")),
+        row(&StentPattern::strut_width, measure("strut_width", "the width of struts", width, "0.1 mm")),
+        row(&StentPattern::strut_thickness, measure("strut_thickness", "the thickness of the tube's wall", width, "0.1 mm")),
+        row(&StentPattern::crown_radius, measure("crown_radius", "the radius of a crown's centreline", width, "0.15 mm")),
+        row(&StentPattern::gap, measure("gap", "the free length between the tips of neighbouring rings", between(0, 0.01), "0.2 mm")),
+        row(&StentPattern::connectors, {.key = "connectors", .help = "connectors per gap; as many as crowns make closed cells",
+                                        .range = between(0, 60), .example = "3"}),
+        row(&StentPattern::connector_shift, {.key = "connector_shift", .help = "crowns from the connectors of one gap to the next's",
+                                             .range = between(-60, 60)}),
+        row(&StentPattern::connector_shape, {.key = "connector_shape", .help = "straight, or S-shaped"}),
+        row(&StentPattern::facing, {.key = "facing", .help = "crowns of neighbouring rings tip to tip, or tip to gap"}),
+        row(&StentPattern::connector_width, {.key = "connector_width", .help = "the width of connectors; the struts' if absent", .unit = "mm",
+                                             .range = width, .example = "0.1 mm"}),
+        row(&StentPattern::connector_swing, {.key = "connector_swing", .help = "how far a flex connector swings to both sides", .unit = "mm",
+                                             .range = between(0, 1e-3)}),
+        row(&StentPattern::edge_radius, {.key = "edge_radius", .help = "the rounding of the struts' edges", .unit = "um",
+                                         .range = between(0, 1e-3)}),
+    });
+    return table;
+}
+
+template <>
+const Table& table_of<StentPlacement>() {
+    static const Table table = make_table<StentPlacement>(
+        "Where the stent's middle lies.",
+        {
+            row(&StentPlacement::branch, {.key = "branch", .help = "the branch that is stented; the only one if absent", .example = "\"left\""}),
+            row(&StentPlacement::arc_length, {.key = "arc_length", .help = "along the branch's centreline", .unit = "mm",
+                                              .range = between(0, largest_length), .example = "12 mm"}),
+            row(&StentPlacement::translation, {.key = "translation", .help = "the place instead", .unit = "mm",
+                                               .range = between(-largest_length, largest_length)}),
+            row(&StentPlacement::direction, {.key = "direction", .help = "of the stent's axis, with translation; its length counts for nothing",
+                                             .example = "[1, 0, 0]"}),
+            row(&StentPlacement::rotation, {.key = "rotation", .help = "around the axis", .unit = "deg"}),
+        },
+        {{.keys = {"arc_length", "translation"}}, {.keys = {"branch", "translation"}, .required = false}});
+    return table;
+}
+
+template <>
+const Table& table_of<Stent>() {
+    static const Table table = make_table<Stent>(
+        "The stent; `patency stent list` shows the designs.",
+        {
+            row(&Stent::design, {.key = "design", .help = "a design of the library", .example = "\"open_cell\""}),
+            row(&Stent::pattern, {.key = "pattern", .help = "its own pattern instead"}),
+            row(&Stent::surface, {.key = "surface", .help = "the closed surface of its metal instead", .example = "\"stent.stl\""}),
+            row(&Stent::unit, {.key = "unit", .help = "the unit of the surface's coordinates", .example = "\"mm\""}),
+            row(&Stent::alloy, {.key = "alloy", .help = "what it is made of: L605, MP35N, 316L, PtCr or nitinol; the design's if absent",
+                                .example = "\"L605\""}),
+            row(&Stent::placement, {.key = "placement", .help = "where it is"}),
+            row(&Stent::spacing, {.key = "spacing", .help = "the distance between its particles; a quarter of a strut if absent", .unit = "um",
+                                  .range = above_up_to(0, 1e-3), .example = "20 um"}),
+        },
+        {{.keys = {"design", "pattern", "surface"}}});
+    return table;
+}
+
+template <>
 const Table& table_of<Initial>() {
     static const Table table = make_table<Initial>("The blood at the start.", {
         row(&Initial::velocity, {.key = "velocity", .help = "the velocity field"}),
@@ -391,6 +463,7 @@ const Table& table_of<Case>() {
         row(&Case::openings, {.key = "openings", .help = "what happens at each opening, by its name"}),
         row(&Case::aorta, {.key = "aorta", .help = "the aorta, the reference of FFR"}),
         row(&Case::bed, {.key = "bed", .help = "the small vessels behind the outlets"}),
+        row(&Case::stent, {.key = "stent", .help = "the stent and where it is"}),
         row(&Case::initial, {.key = "initial", .help = "the blood at the start"}),
         row(&Case::numerics, {.key = "numerics", .help = "how it is computed", .need = always}),
         row(&Case::output, {.key = "output", .help = "what is written"}),

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/stent_of_case.h"
+
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/shape/stent_library.h"
+#include "patency/shape/stent_metal.h"
+
+namespace patency {
+
+StentPattern make_stent_pattern(const deck::Stent& stent) {
+    StentPattern pattern;
+    if (stent.design) {
+        pattern = find_stent(*stent.design).pattern;
+    } else if (stent.pattern) {
+        const deck::StentPattern& p = *stent.pattern;
+        pattern = {.layout = p.layout == deck::StentLayout::helix ? StentLayout::helix : StentLayout::rings,
+                   .rings = p.rings,
+                   .crowns = p.crowns,
+                   .length = p.length,
+                   .diameter = p.diameter,
+                   .crimped_diameter = p.crimped_diameter,
+                   .nominal_diameter = p.nominal_diameter,
+                   .strut_width = p.strut_width,
+                   .strut_thickness = p.strut_thickness,
+                   .crown_radius = p.crown_radius,
+                   .gap = p.gap,
+                   .connectors = p.connectors,
+                   .connector_shape = p.connector_shape == deck::ConnectorShape::flex ? ConnectorShape::flex
+                                                                                      : ConnectorShape::straight,
+                   .facing = p.facing == deck::CrownFacing::staggered ? CrownFacing::staggered : CrownFacing::aligned,
+                   .connector_width = p.connector_width.value_or(0),
+                   .connector_swing = p.connector_swing,
+                   .connector_shift = p.connector_shift,
+                   .edge_radius = p.edge_radius,
+                   .alloy = "316L"};
+    } else {
+        throw DeckError("stent: it is a surface and has no pattern");
+    }
+    if (stent.alloy) pattern.alloy = *stent.alloy;
+    find_alloy(pattern.alloy);
+    return pattern;
+}
+
+StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves,
+                          std::span<const Vec3> line) {
+    if (placement.translation) {
+        const double c = std::cos(placement.rotation), s = std::sin(placement.rotation);
+        const RigidMotion turned{{{1, 0, 0}, {0, c, -s}, {0, s, c}}, {}};
+        return StentAxis(motion_along(placement.direction, *placement.translation).after(turned));
+    }
+    if (!placement.arc_length || line.empty())
+        throw DeckError("stent.placement: the centreline is not known; give a translation");
+    return StentAxis(line, *placement.arc_length, placement.rotation, curves.length, outer_radius(curves));
+}
+
+}   // namespace patency
