@@ -76,7 +76,9 @@ TEST(SurfaceDistance, OfABoxIsExactOutsideItsEdgesAndItsMiddle) {
     for (const Vec3& x : random_points(grown({{}, size}, 0.5e-3), 20000)) {
         const DistanceSample is = grid.sample(x), must = exact.sample(x);
         EXPECT_NEAR(is.value, must.value, 0.5 * voxel);   // edges are cut
-        if (std::abs(must.value) > 0.25 * voxel) EXPECT_EQ(is.value < 0, must.value < 0);
+        if (std::abs(must.value) > 0.25 * voxel) {
+            EXPECT_EQ(is.value < 0, must.value < 0);
+        }
         // Nearest to a face, and so are all corners of the voxels around: distance is linear there, and so is the grid.
         const auto is_face = [&](const Vec3& y) { return norm(exact.gradient(y) - must.gradient) < 1e-9; };
         bool all = true;

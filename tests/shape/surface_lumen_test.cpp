@@ -69,7 +69,9 @@ TEST(SurfaceLumen, GoesOnStraightPastItsOpenings) {
                 const double must = (share - 1) * radius;
                 EXPECT_NEAR(lumen.distance.value(x), must, share == 0 ? 0.5 * settings.voxel : dp / 20)
                     << "past by " << s;
-                if (share > 0.5) EXPECT_NEAR(dot(lumen.distance.gradient(x), aside), 1, 0.02);
+                if (share > 0.5) {
+                    EXPECT_NEAR(dot(lumen.distance.gradient(x), aside), 1, 0.02);
+                }
                 EXPECT_FALSE(contains(lumen, x));
             }
         EXPECT_TRUE(contains(lumen, opening.centre - 0.1 * dp * opening.normal));

@@ -21,7 +21,7 @@ struct Lattice {
 
 /// The lattice in the lumen's frame: cells of `spacing` [m], stretched along the axes that the lumen fits so
 /// that a whole number fills them (rows at (k + 1/2) cells from plates, flat openings between rows), and along the
-/// others, by about a part in a million, so that a whole number of cells has the lumen's volume.
+/// others, by about a part in a million, so that a whole number of cells has the lumen's volume. THEORY.md (17.3)
 Lattice fitted_lattice(const Lumen& lumen, double spacing);
 
 /// All lattice points in `region` that `wanted` accepts; x varies fastest. The region must be finite.

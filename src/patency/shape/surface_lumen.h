@@ -19,7 +19,7 @@ struct SurfaceLumenSettings {
 
 /// The surface's triangles, from each opening's rim on a prism along its normal. A rim that is not flat is led on to the
 /// plane through its outermost point, so that nothing of the vessel is cut away; the lumen grows by that. Volume and areas
-/// are exact for the triangles. THEORY.md (9.2)
+/// are exact for the triangles. THEORY.md (17.2)
 /// Throws GeometryError if an opening has no rim of its own or its continuation runs into the vessel.
 Lumen make_surface_lumen(const CheckedSurface& checked, std::span<const SurfaceOpening> openings,
                          const SurfaceLumenSettings& settings);

@@ -82,6 +82,7 @@ double TriangleTree::square_distance(const Vec3& x, double bound) const {
         const Node& node = nodes_[index];
         if (node.is_leaf()) {
             for (std::uint32_t k = node.begin; k < node.end; ++k) {
+                if (square_to_box(x, boxes_[order_[k]]) >= best) continue;
                 const auto& [a, b, c] = surface_.triangles[order_[k]];
                 const Vec3 d = x - nearest_place(x, surface_.points[a], surface_.points[b], surface_.points[c]);
                 best = std::min(best, dot(d, d));
