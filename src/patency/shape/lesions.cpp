@@ -112,7 +112,7 @@ public:
             if (!is_deep(begin)) continue;
             const Found next = lesion_around(begin, end);
             if (!next.lesion.proximal && !next.lesion.distal) continue;
-            if (next.lesion.diameter_stenosis < rule_.least_stenosis) continue;
+            if (next.lesion.diameter_stenosis < rule_.least_stenosis || is_step(next)) continue;
             if (found.empty() || next.first > found.back().last)
                 found.push_back(next);
             else if (next.lesion.minimum_diameter < found.back().lesion.minimum_diameter)   // one lesion, two throats
@@ -167,6 +167,18 @@ private:
         const double diameter = median(diameters);
         if (room < 0.5 * diameter) return {};
         return Reference{diameter, areas.empty() ? disc(diameter) : median(areas)};
+    }
+
+    /// Whether the vessel only becomes as narrow as the branch that follows where its own one ends.
+    bool is_step(const Found& f) const {
+        const auto is_no_wider = [&](std::size_t shoulder, int step) {
+            std::size_t k = shoulder;
+            while (k < p_.size() && (p_.branch[k] < 0 || p_.branch[k] == int(f.lesion.branch))) k += std::size_t(step);
+            if (k >= p_.size()) return false;
+            const auto next = reference(f.throat, k, step, p_.branch[k]);
+            return next && f.lesion.minimum_diameter >= (1 - rule_.least_stenosis) * next->diameter;
+        };
+        return (!f.lesion.proximal && is_no_wider(f.first, -1)) || (!f.lesion.distal && is_no_wider(f.last, +1));
     }
 
     double reach_at(std::size_t throat) const { return rule_.reference_length * level_[throat]; }
