@@ -130,6 +130,14 @@ TEST(Lesion, IsNotAStepJustBeforeABifurcationUnlessItIsNarrowerThanWhatFollows) 
     }
 }
 
+TEST(Lesion, MayBeLongAndEvenlyNarrow) {
+    const auto radius = [](double x) { return x > 15 * mm && x < 30 * mm ? 1 * mm : 1.5 * mm; };
+    const Assessment found = assess(straight(45 * mm, radius));
+    ASSERT_EQ(found.lesions.size(), 1u);
+    EXPECT_NEAR(found.lesions[0].diameter_stenosis, 1. / 3, 1e-6);
+    EXPECT_NEAR(found.lesions[0].length(), 15 * mm, 0.3 * mm);
+}
+
 TEST(Lesion, IsNotNoise) {
     unsigned state = 1;
     const auto noisy = [&](double) {

@@ -107,7 +107,6 @@ public:
     std::vector<Found> find() const {
         std::vector<Found> found;
         for (std::size_t begin = 0, end; begin < p_.size(); begin = end) {
-            const auto is_deep = [&](std::size_t k) { return own_[k] < (1 - rule_.least_stenosis) * level_[k]; };
             for (end = begin + 1; end < p_.size() && is_deep(end) == is_deep(begin);) ++end;
             if (!is_deep(begin)) continue;
             const Found next = lesion_around(begin, end);
@@ -135,6 +134,8 @@ private:
     const LesionRule& rule_;
     Values own_, calm_, level_;
 
+    bool is_deep(std::size_t k) const { return own_[k] < (1 - rule_.least_stenosis) * level_[k]; }
+
     /// The first point from the throat outwards beyond which, within the reference length, the lumen widens by no more
     /// than the shoulder's gain. (14.6)
     std::size_t shoulder(std::size_t throat, int step, int branch) const {
@@ -142,6 +143,7 @@ private:
             return k < p_.size() && (p_.branch[k] == branch || p_.branch[k] < 0);
         };
         std::size_t k = throat;
+        while (is_deep(k) && is_within(k + std::size_t(step))) k += std::size_t(step);   // a long throat has no slope
         for (;; k += std::size_t(step)) {
             double widest = calm_[k];
             std::size_t m = k;
