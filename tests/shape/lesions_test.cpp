@@ -119,6 +119,25 @@ TEST(Lesion, IsNotATaperNorAStepAtABifurcationNorItsBulge) {
         EXPECT_LE(found.healthy_diameter[0][k], 4.4 * mm * (1 + 1e-12)) << "no bulge";
 }
 
+TEST(Lesion, IsNotAStepJustBeforeABifurcationUnlessItIsNarrowerThanWhatFollows) {
+    for (double throat : {1.2 * mm, 0.8 * mm}) {   // 1.8 mm before it; 1.25 mm after it, and wider again later
+        const auto radius = [&](double x) {
+            return x < 12 * mm ? 1.8 * mm : x < 17 * mm ? throat : x < 28 * mm ? 1.25 * mm : 1.7 * mm;
+        };
+        const Assessment found = assess(straight(40 * mm, radius, 15 * mm, 17 * mm));
+        ASSERT_EQ(found.lesions.size(), throat < 1 * mm ? 1u : 0u) << throat;
+        for (const Lesion& lesion : found.lesions) EXPECT_NEAR(lesion.diameter_stenosis, 1 - 0.8 / 1.8, 0.01);
+    }
+}
+
+TEST(Lesion, MayBeLongAndEvenlyNarrow) {
+    const auto radius = [](double x) { return x > 15 * mm && x < 30 * mm ? 1 * mm : 1.5 * mm; };
+    const Assessment found = assess(straight(45 * mm, radius));
+    ASSERT_EQ(found.lesions.size(), 1u);
+    EXPECT_NEAR(found.lesions[0].diameter_stenosis, 1. / 3, 1e-6);
+    EXPECT_NEAR(found.lesions[0].length(), 15 * mm, 0.3 * mm);
+}
+
 TEST(Lesion, IsNotNoise) {
     unsigned state = 1;
     const auto noisy = [&](double) {

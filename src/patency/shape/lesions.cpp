@@ -107,12 +107,11 @@ public:
     std::vector<Found> find() const {
         std::vector<Found> found;
         for (std::size_t begin = 0, end; begin < p_.size(); begin = end) {
-            const auto is_deep = [&](std::size_t k) { return own_[k] < (1 - rule_.least_stenosis) * level_[k]; };
             for (end = begin + 1; end < p_.size() && is_deep(end) == is_deep(begin);) ++end;
             if (!is_deep(begin)) continue;
             const Found next = lesion_around(begin, end);
             if (!next.lesion.proximal && !next.lesion.distal) continue;
-            if (next.lesion.diameter_stenosis < rule_.least_stenosis) continue;
+            if (next.lesion.diameter_stenosis < rule_.least_stenosis || is_step(next)) continue;
             if (found.empty() || next.first > found.back().last)
                 found.push_back(next);
             else if (next.lesion.minimum_diameter < found.back().lesion.minimum_diameter)   // one lesion, two throats
@@ -135,6 +134,8 @@ private:
     const LesionRule& rule_;
     Values own_, calm_, level_;
 
+    bool is_deep(std::size_t k) const { return own_[k] < (1 - rule_.least_stenosis) * level_[k]; }
+
     /// The first point from the throat outwards beyond which, within the reference length, the lumen widens by no more
     /// than the shoulder's gain. (14.6)
     std::size_t shoulder(std::size_t throat, int step, int branch) const {
@@ -142,6 +143,7 @@ private:
             return k < p_.size() && (p_.branch[k] == branch || p_.branch[k] < 0);
         };
         std::size_t k = throat;
+        while (is_deep(k) && is_within(k + std::size_t(step))) k += std::size_t(step);   // a long throat has no slope
         for (;; k += std::size_t(step)) {
             double widest = calm_[k];
             std::size_t m = k;
@@ -167,6 +169,18 @@ private:
         const double diameter = median(diameters);
         if (room < 0.5 * diameter) return {};
         return Reference{diameter, areas.empty() ? disc(diameter) : median(areas)};
+    }
+
+    /// Whether the vessel only becomes as narrow as the branch that follows where its own one ends.
+    bool is_step(const Found& f) const {
+        const auto is_no_wider = [&](std::size_t shoulder, int step) {
+            std::size_t k = shoulder;
+            while (k < p_.size() && (p_.branch[k] < 0 || p_.branch[k] == int(f.lesion.branch))) k += std::size_t(step);
+            if (k >= p_.size()) return false;
+            const auto next = reference(f.throat, k, step, p_.branch[k]);
+            return next && f.lesion.minimum_diameter >= (1 - rule_.least_stenosis) * next->diameter;
+        };
+        return (!f.lesion.proximal && is_no_wider(f.first, -1)) || (!f.lesion.distal && is_no_wider(f.last, +1));
     }
 
     double reach_at(std::size_t throat) const { return rule_.reference_length * level_[throat]; }
