@@ -41,7 +41,6 @@ geometry:
   surface: lumen.stl
   unit: mm
   space: LPS
-  lesion: {from: [1, 2.5, "a, b"], note: "a \"quoted\" text: # no comment", empty: ~, truth: true, text: "true"}
   extensions: [{opening: inlet, length: "4 mm"}]
 blood: {density: "1.06 g/mL", law: carreau_yasuda, mu_0: "56 cP", mu_inf: "0.0345 P", lambda: "1.902 s", n: 0.22, a: 1.25}
 wall:
@@ -49,7 +48,7 @@ wall:
   slip: no_slip
   thickness: "0.8 mm"
   law: neo_hookean
-  plaque: {young: "1 MPa"}
+  plaque: {from: [1, 2.5, "a, b"], note: "a \"quoted\" text: # no comment", empty: ~, truth: true, text: "true"}
 openings:
   inlet:
     type: flow
@@ -135,6 +134,13 @@ numerics: {spacing: "0.2 mm", duration: "1 s"}
 geometry: {shape: {type: cone, diameters: ["4 mm", "2 mm"], length: "20 mm", axis: [1, 1, 0.5]}}
 blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
 wall: {slip: free_slip}
+numerics: {spacing: "0.2 mm", duration: "1 s"}
+)",
+    R"(version: 1
+geometry:
+  network: tree.json
+  lesion: {branch: lad, position: "23 mm", length: "1 cm", diameter_stenosis_percent: 39.4, eccentricity: 0.5, side: [0, 0, 1]}
+blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
 numerics: {spacing: "0.2 mm", duration: "1 s"}
 )",
 };

@@ -19,7 +19,7 @@ namespace {
 using VectorField = std::function<Vec3(const Vec3&)>;
 
 StraightAxis axis_for(const Scene& scene, const char* what) {
-    auto axis = find_straight_axis(*scene.config.geometry.shape);
+    auto axis = find_straight_axis(scene.config.geometry);
     if (!axis) throw DeckError(fmt::format("{} needs a shape with one straight axis: channel, tube, cone or nozzle", what));
     return *axis;
 }
@@ -53,7 +53,7 @@ VectorField velocity_field(const Scene& scene) {
     switch (initial.velocity) {
         case deck::InitialVelocity::rest: return [](const Vec3&) { return Vec3{}; };
         case deck::InitialVelocity::plug: {
-            const auto axis = find_straight_axis(*scene.config.geometry.shape);
+            const auto axis = find_straight_axis(scene.config.geometry);
             const Vec3 direction = axis ? axis->direction : Vec3{1, 0, 0};
             return [=](const Vec3&) { return speed * direction; };
         }

@@ -8,6 +8,9 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/io/network_file.h"
+#include "patency/shape/network_lumen.h"
+#include "patency/shape/surface_openings.h"
 
 namespace patency {
 
@@ -27,6 +30,10 @@ std::vector<AxialRadius> outline_of(const deck::Shape& shape) {
         case deck::ShapeType::branches: break;
     }
     return {};
+}
+
+double extension_for(const deck::Numerics& numerics) {
+    return 12 * numerics.spacing;   // far enough for the buffer, the wall beyond it and its kernels
 }
 
 Lumen make_box_of(const deck::Case& config, const deck::Shape& shape) {
@@ -56,8 +63,7 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
         if (is_free(branches[k].from, k)) starts.push_back(k);
         if (is_free(branches[k].to, k)) ends.push_back(k);
     }
-    // Far enough for the buffer, the wall beyond it and its kernels.
-    BranchesShape result{.branches = {}, .extension = 12 * config.numerics.spacing};
+    BranchesShape result{.branches = {}, .extension = extension_for(config.numerics)};
     for (std::size_t k = 0; k < branches.size(); ++k) {
         const deck::Branch& b = branches[k];
         BranchShape branch{.points = {b.from, b.to}, .radii = {0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}, .start = {}, .end = {}};
@@ -67,6 +73,37 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
         result.branches.push_back(branch);
     }
     return make_branches(result);
+}
+
+double narrowest_width(const deck::Shape& shape) {
+    if (shape.type == deck::ShapeType::box)
+        return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
+    double width = Bounds::infinity;
+    for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
+    for (const deck::Branch& b : shape.branches)
+        for (const double d : b.diameters) width = std::min(width, d);
+    return width;
+}
+
+Lumen make_network_of(const deck::Case& config) {
+    const deck::Geometry& g = config.geometry;
+    Network network = read_network(*g.network, g.unit.value_or(""), g.space.value_or(""));
+    if (const auto& lesion = g.lesion)
+        add_lesion(network, {.tube = lesion->branch,
+                             .position = lesion->position,
+                             .length = lesion->length,
+                             .stenosis = lesion->diameter_stenosis_percent / 100,
+                             .eccentricity = lesion->eccentricity,
+                             .side = lesion->side});
+    const double dp = config.numerics.spacing;
+    constexpr double fewest_across = 4;   // as for shapes (config/checks.cpp)
+    if (narrowest_diameter(network) < fewest_across * dp)
+        throw DeckError(fmt::format("numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
+                                    "a sensible answer",
+                                    1e3 * narrowest_diameter(network)));
+    Lumen lumen = make_network_lumen(network, extension_for(config.numerics), 0.5 * dp);
+    expect_vessel_size({.opening = lumen.openings[0], .perimeter = 0, .flatness = 0}, g.unit.value_or("mm"));
+    return lumen;
 }
 
 Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
@@ -90,22 +127,26 @@ void expect_same_names(const deck::Case& config, const Lumen& lumen) {
     for (const auto& [name, opening] : config.openings) {
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
         const std::string nearest = nearest_name(name, names);
-        throw DeckError(fmt::format("openings.{}: the shape has no such opening{}; it has {}", name,
+        throw DeckError(fmt::format("openings.{}: the lumen has no such opening{}; it has {}", name,
                                     nearest.empty() ? "" : ", did you mean " + nearest + "?",
                                     names.empty() ? "none" : join(names, ", ", " and ")));
     }
     for (const std::string& name : names)
         if (!config.openings.contains(name))
-            throw DeckError(fmt::format("openings.{}: what happens at this opening is missing; the shape has {}", name,
+            throw DeckError(fmt::format("openings.{}: what happens at this opening is missing; the lumen has {}", name,
                                         join(names, ", ", " and ")));
 }
 
 }  // namespace
 
 Lumen make_lumen(const deck::Case& config) {
-    if (!config.geometry.shape)
-        throw GeometryError("geometry.surface and geometry.network come with the surface reader; use geometry.shape");
-    Lumen lumen = make_unchecked(config, *config.geometry.shape);
+    const deck::Geometry& g = config.geometry;
+    if (g.surface) throw GeometryError("geometry.surface: surfaces have no particles yet; use geometry.network or geometry.shape");
+    Lumen lumen = g.shape ? make_unchecked(config, *g.shape) : make_network_of(config);
+    if (g.shape) {
+        lumen.narrowest = narrowest_width(*g.shape);
+        lumen.narrowest_share = g.shape->type == deck::ShapeType::box || is_branching(g) ? 0 : 1;
+    }
     expect_same_names(config, lumen);
     return lumen;
 }
@@ -125,22 +166,18 @@ double StraightAxis::radius_at(double place) const {
     return outline.back().radius;
 }
 
-std::optional<StraightAxis> find_straight_axis(const deck::Shape& shape) {
+bool is_branching(const deck::Geometry& geometry) {
+    return geometry.network || (geometry.shape && geometry.shape->type == deck::ShapeType::branches);
+}
+
+std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry) {
+    if (!geometry.shape) return {};
+    const deck::Shape& shape = *geometry.shape;
     const std::vector<AxialRadius> outline = outline_of(shape);
     if (outline.empty() || (shape.type == deck::ShapeType::box && !shape.planar)) return {};
     const double length = outline.back().axial - outline.front().axial;
     if (shape.is_planar()) return StraightAxis{{0, outline.front().radius, 0}, {1, 0, 0}, length, Section::planar, outline};
     return StraightAxis{shape.start, normalized(shape.axis), length, Section::circular, outline};
-}
-
-double narrowest_width(const deck::Shape& shape) {
-    if (shape.type == deck::ShapeType::box)
-        return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
-    double width = Bounds::infinity;
-    for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
-    for (const deck::Branch& b : shape.branches)
-        for (const double d : b.diameters) width = std::min(width, d);
-    return width;
 }
 
 std::string_view plane_wall_name(const Vec3& n) {

@@ -12,8 +12,8 @@
 
 namespace patency {
 
-/// The lumen of geometry.shape with its openings named. Throws GeometryError for shapes that cannot be and for surfaces
-/// and networks; DeckError if the deck names openings that the shape has not, or leaves one out.
+/// The lumen of geometry.shape or geometry.network with its openings named. Throws GeometryError for what cannot be and for
+/// surfaces; DeckError if the deck names openings that the lumen has not, leaves one out, or has too large a spacing for it.
 Lumen make_lumen(const deck::Case& config);
 
 /// A lumen around one straight axis: a channel, tube, cone, nozzle.
@@ -29,11 +29,11 @@ struct StraightAxis {
     /// Radius or half gap at a place along the axis; constant beyond the ends [m].
     double radius_at(double axial) const;
 };
-/// None for boxes in space and for branches.
-std::optional<StraightAxis> find_straight_axis(const deck::Shape& shape);
+/// None for boxes in space, branches and networks.
+std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry);
 
-/// The smallest width anywhere: a gap, a side or a diameter [m].
-double narrowest_width(const deck::Shape& shape);
+/// Whether the lumen branches.
+bool is_branching(const deck::Geometry& geometry);
 
 /// Name of the plane wall that has this normal out of the blood: x_low, x_high, y_low, ...
 std::string_view plane_wall_name(const Vec3& normal);

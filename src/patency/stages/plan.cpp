@@ -22,10 +22,9 @@ constexpr double viscous_number = 0.125;   // as the scheme's: dt <= 0.125 h^2 /
 }  // namespace
 
 FlowPlan plan_flow(const Scene& scene, int threads) {
-    const deck::Shape& shape = *scene.config.geometry.shape;
     const FlowNumerics& n = scene.numerics;
     const double dp = n.spacing, h = n.smoothing_ratio * dp, c = scene.material.sound_speed, u = n.reference_speed;
-    const double cell = n.planar ? dp * dp : dp * dp * dp, width = narrowest_width(shape);
+    const double cell = n.planar ? dp * dp : dp * dp * dp, width = scene.lumen.narrowest;
     const double developed = parabola_profile(n.planar ? Section::planar : Section::circular, 0);
     const double thickness = 2 * h + 0.5 * dp, beyond = buffer_spacings * dp;
     double area = 0, rim = 0;

@@ -9,7 +9,7 @@
 namespace patency {
 
 StraightAxis axis_of(const Scene& scene) {
-    auto axis = find_straight_axis(*scene.config.geometry.shape);
+    auto axis = find_straight_axis(scene.config.geometry);
     if (!axis) throw GeometryError("the verification case needs a shape with one straight axis");
     return *axis;
 }
