@@ -13,6 +13,7 @@
 #include "patency/base/units.h"
 #include "patency/io/atomic_file.h"
 #include "patency/io/centreline_file.h"
+#include "patency/io/network_file.h"
 #include "patency/io/output_folder.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
@@ -20,6 +21,7 @@
 #include "patency/io/vtp.h"
 #include "patency/shape/exact_distance.h"
 #include "patency/shape/lesions.h"
+#include "patency/shape/network_lumen.h"
 #include "patency/shape/surface_check.h"
 #include "patency/shape/surface_openings.h"
 
@@ -32,6 +34,7 @@ using Json = nlohmann::ordered_json;
 
 struct InspectOptions {
     std::string path, unit, space, out, inlet;
+    std::optional<int> label;
 };
 
 /// What is known of a vessel along its centrelines.
@@ -77,9 +80,19 @@ void add_centrelines(Inspection& r) {
 }
 
 Inspection inspect(const InspectOptions& o) {
-    Surface surface = read_surface(o.path, o.unit, o.space);
-    Inspection result{surface.triangles.size(), check_surface(std::move(surface)), {}, {}};
+    std::vector<Opening> named;   // of a network, in the order of their face ids from 2 on
+    Surface surface;
+    if (holds_network(o.path)) {
+        const Network network = read_network(o.path, o.unit, o.space);
+        named = openings_of(network, 0);
+        surface = make_network_surface(network, 0.5 * narrowest_diameter(network));
+    } else {
+        surface = read_surface(o.path, o.unit, o.space, o.label);
+    }
+    Inspection result{surface.triangles.size(), check_surface(std::move(surface)), {}};
     result.openings = find_openings(result.checked);
+    for (SurfaceOpening& opening : result.openings)
+        if (opening.face_id && !named.empty()) opening.opening.name = named.at(std::size_t(*opening.face_id) - 2).name;
     for (Finding& finding : find_missing_openings(result.openings))
         result.checked.findings.push_back(std::move(finding));
     if (!o.inlet.empty()) choose_inlet(result.openings, o.inlet);
@@ -132,7 +145,7 @@ void print_along(const VesselAlong& v) {
 void print_table(const InspectOptions& o, const Inspection& r) {
     const Surface& surface = r.checked.surface;
     const Bounds box = bounds(surface);
-    fmt::print("{} (unit {}{})\n", o.path, o.unit, surface.space.empty() ? "" : ", axes " + surface.space);
+    fmt::print("{} (unit {}{})\n", o.path, o.unit.empty() ? "its own" : o.unit, surface.space.empty() ? "" : ", axes " + surface.space);
     fmt::print("  triangles   {} read, {} kept; {} points\n", r.triangles_read, surface.triangles.size(),
                surface.points.size());
     for (const auto& [axis, low, high] :
@@ -206,7 +219,7 @@ Json as_json(const InspectOptions& o, const Inspection& r) {
     const Surface& surface = r.checked.surface;
     const Bounds box = bounds(surface);
     Json json{{"file", fs::path(o.path).filename().string()},
-              {"unit", o.unit},
+              {"unit", o.unit.empty() ? Json() : Json(o.unit)},
               {"space", surface.space.empty() ? Json() : Json(surface.space)}};
     json["triangles_read"] = r.triangles_read;
     json["triangles"] = surface.triangles.size();
@@ -269,7 +282,7 @@ void run(const InspectOptions& o) {
     print_table(o, result);
     if (!o.out.empty()) write_results(o, result);
     if (!result.openings.empty())
-        expect_vessel_size(result.openings[0], o.unit);   // first: in a wrong unit the rest means little
+        expect_vessel_size(result.openings[0], o.unit.empty() ? "mm" : o.unit);   // first: in a wrong unit the rest means little
     if (const std::string why = refusals(result.checked.findings); !why.empty())
         throw GeometryError(fmt::format("the surface '{}' cannot be used yet:\n{}", o.path, why));
 }
@@ -280,9 +293,10 @@ void add_inspect_command(CLI::App& program, ExitCode&) {
     CLI::App* command =
         program.add_subcommand("inspect", "say what a surface is as a vessel: openings, sizes, defects, a picture");
     const auto o = std::make_shared<InspectOptions>();
-    command->add_option("surface", o->path, "the surface: STL, VTP, PLY, OBJ or legacy VTK")->required();
-    command->add_option("--unit", o->unit, "of its coordinates, which the file does not say: m, cm, mm or um")
-        ->required();
+    command->add_option("surface", o->path, "a surface (STL, VTP, PLY, OBJ, legacy VTK), a label map (NIfTI, NRRD, MetaImage) or a network of tubes (JSON, SWC, "
+                                         "VTP, legacy VTK)")->required();
+    command->add_option("--unit", o->unit, "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
+    command->add_option("--label", o->label, "of a label map with several: which one is the vessel");
     command->add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
     command->add_option("-o,--out", o->out,
                         "a folder for the cleaned surface, the findings, the figures and a picture");

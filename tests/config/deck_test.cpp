@@ -111,6 +111,17 @@ TEST(Deck, SettingsReachItemsOfLists) {
     EXPECT_DOUBLE_EQ(c.geometry.shape->sections[1].diameter, 0.005);
 }
 
+TEST(Deck, ALesionNarrowsABranchOfANetwork) {
+    const Case c = parse_case(valid_decks.back(), "deck", "/decks");
+    EXPECT_EQ(*c.geometry.network, "/decks/tree.json");
+    EXPECT_EQ(c.geometry.lesion->branch, "lad");
+    EXPECT_DOUBLE_EQ(c.geometry.lesion->position, 0.023);
+    EXPECT_DOUBLE_EQ(c.geometry.lesion->length, 0.01);
+    EXPECT_DOUBLE_EQ(c.geometry.lesion->diameter_stenosis_percent, 39.4);
+    EXPECT_DOUBLE_EQ(c.geometry.lesion->eccentricity, 0.5);
+    EXPECT_EQ(*c.geometry.lesion->side, (Vec3{0, 0, 1}));
+}
+
 TEST(Runs, AreTheDeckWithWhatTheySet) {
     const auto runs = parse_runs(valid_decks[2]);
     ASSERT_EQ(runs.size(), 2u);

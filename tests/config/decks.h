@@ -41,7 +41,6 @@ geometry:
   surface: lumen.stl
   unit: mm
   space: LPS
-  lesion: {from: [1, 2.5, "a, b"], note: "a \"quoted\" text: # no comment", empty: ~, truth: true, text: "true"}
   extensions: {diameters: 2}
 blood: {density: "1.06 g/mL", law: carreau_yasuda, mu_0: "56 cP", mu_inf: "0.0345 P", lambda: "1.902 s", n: 0.22, a: 1.25}
 wall:
@@ -49,7 +48,7 @@ wall:
   slip: no_slip
   thickness: "0.8 mm"
   law: neo_hookean
-  plaque: {young: "1 MPa"}
+  plaque: {from: [1, 2.5, "a, b"], note: "a \"quoted\" text: # no comment", empty: ~, truth: true, text: "true"}
 openings:
   inlet:
     type: flow
@@ -148,6 +147,13 @@ stent:
     connectors: 3, connector_shift: 1, connector_shape: flex, facing: staggered, connector_width: "90 um",
     connector_swing: "50 um", edge_radius: "4 um"}
   placement: {translation: ["1 mm", "2 mm", "3 mm"], direction: [0, 1, 1], rotation: "0.5 rad"}
+numerics: {spacing: "0.2 mm", duration: "1 s"}
+)",
+    R"(version: 1
+geometry:
+  network: tree.json
+  lesion: {branch: lad, position: "23 mm", length: "1 cm", diameter_stenosis_percent: 39.4, eccentricity: 0.5, side: [0, 0, 1]}
+blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
 numerics: {spacing: "0.2 mm", duration: "1 s"}
 )",
 };

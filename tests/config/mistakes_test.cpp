@@ -56,6 +56,24 @@ TEST(Mistakes, MissingForAType) {
               only("13:5: openings.outlet: needs a resistance, or aorta.pressure, from which it is tuned to the bed"));
 }
 
+TEST(Mistakes, LesionThatCannotBe) {
+    const auto with_lesion = [](const std::string& geometry, const std::string& lesion) {
+        return mistakes_in(pipe_with("  shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}\n",
+                                     "  " + geometry + "\n  lesion: {branch: lad, position: \"20 mm\", length: \"10 mm\", diameter_stenosis_percent: " + lesion + "}\n"));
+    };
+    EXPECT_EQ(with_lesion("network: t.json", "40"), "accepted");
+    EXPECT_EQ(with_lesion("network: t.json", "98"),
+              only("5:91: geometry.lesion.diameter_stenosis_percent: 98 is out of range: 0 to 95"));
+    EXPECT_EQ(with_lesion("network: t.json", "40, position: \"4 mm\"").substr(0, 9), "case.yaml");   // twice
+    EXPECT_EQ(with_lesion("network: t.json", "40, lenth: \"4 mm\""),
+              only("5:95: geometry.lesion.lenth: unknown key. Did you mean \"length\"?"));
+    EXPECT_EQ(with_lesion("network: t.json", "40, side: [0, 0, 0]"), only("5:101: geometry.lesion.side: must not be zero"));
+    EXPECT_EQ(with_lesion("network: t.swc", "40"),
+              only("4:12: geometry.network: needs geometry.unit: only a JSON network says whether it counts in mm or in m"));
+    EXPECT_EQ(with_lesion("shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}", "40"),
+              only("5:11: geometry.lesion: can narrow a network only, not a surface or a shape"));
+}
+
 TEST(Mistakes, MisspelledKey) {
     EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  threds: 2\n  spacing:")),
               only("16:3: numerics.threds: unknown key. Did you mean \"threads\"?"));

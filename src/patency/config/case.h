@@ -124,12 +124,23 @@ struct Extensions {
     bool operator==(const Extensions&) const = default;
 };
 
+/// A narrowing of a branch of the network with the profile of a cosine.
+struct Lesion {
+    std::string branch;
+    double position = 0;                    ///< m along the branch from its first point, or its opening there, to the middle
+    double length = 0;                      ///< m
+    double diameter_stenosis_percent = 0;   ///< of the healthy diameter, at the middle
+    double eccentricity = 0;                ///< 0: all around; 1: the lumen touches the healthy wall opposite to the plaque
+    std::optional<Vec3> side;               ///< direction from the axis to the plaque
+    bool operator==(const Lesion&) const = default;
+};
+
 struct Geometry {   // exactly one of surface, network, shape
     std::optional<std::filesystem::path> surface, network;
     std::optional<Shape> shape;
-    std::optional<std::string> unit;    ///< of the surface's coordinates: m, cm, mm or um
-    std::optional<std::string> space;   ///< axes of the surface's coordinates: LPS or RAS
-    Kept lesion;
+    std::optional<std::string> unit;    ///< of the file's coordinates: m, cm, mm or um
+    std::optional<std::string> space;   ///< axes of the file's coordinates: LPS or RAS
+    std::optional<Lesion> lesion;
     Extensions extensions;
     bool operator==(const Geometry&) const = default;
 };

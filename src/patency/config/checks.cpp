@@ -65,6 +65,16 @@ private:
         if (g.surface)
             expect(g.unit.has_value(), path + "surface",
                    "needs geometry.unit: a surface file does not say whether it counts in mm or in m", {path + "unit"});
+        if (g.network)
+            expect(g.unit.has_value() || g.network->extension() == ".json", path + "network",
+                   "needs geometry.unit: only a JSON network says whether it counts in mm or in m", {path + "unit"});
+        if (g.lesion) {
+            expect(g.network.has_value(), path + "lesion", "can narrow a network only, not a surface or a shape");
+            expect(!g.lesion->side || norm(*g.lesion->side) > 0, path + "lesion.side", "must not be zero");
+            expect(g.lesion->position >= 0.5 * g.lesion->length, path + "lesion.position",
+                   "is nearer to the start of the branch than half the length, " + format_quantity(0.5 * g.lesion->length, "mm"),
+                   {path + "lesion.length"});
+        }
         if (g.shape) check_shape(*g.shape, path + "shape.");
     }
 

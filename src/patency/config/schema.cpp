@@ -94,20 +94,43 @@ const Table& table_of<Extensions>() {
 }
 
 template <>
+const Table& table_of<Lesion>() {
+    static const Table table = make_table<Lesion>("A narrowing of a branch, its profile a cosine.", {
+        row(&Lesion::branch, {.key = "branch", .help = "the branch of the network that it lies in", .example = "\"left\"",
+                              .need = always}),
+        row(&Lesion::position, {.key = "position",
+                                .help = "how far its middle lies along the branch, from the branch's first point or its opening there",
+                                .unit = "mm", .range = between(0, largest_length), .example = "15 mm", .need = always}),
+        row(&Lesion::length, {.key = "length", .help = "its length along the branch", .unit = "mm",
+                              .range = above_up_to(0, largest_length), .example = "10 mm", .need = always}),
+        row(&Lesion::diameter_stenosis_percent,
+            {.key = "diameter_stenosis_percent", .help = "how much of the healthy diameter it takes at its middle, in percent",
+             .range = between(0, 95), .example = "50", .need = always}),
+        row(&Lesion::eccentricity,
+            {.key = "eccentricity",
+             .help = "0: plaque all around; 1: on one side only, so that the lumen touches the healthy wall on the other",
+             .range = between(0, 1), .example = "0.5"}),
+        row(&Lesion::side, {.key = "side", .help = "the direction from the axis to the plaque, if eccentric; chosen if absent",
+                            .example = "[0, 1, 0]"}),
+    });
+    return table;
+}
+
+template <>
 const Table& table_of<Geometry>() {
     static const Table table = make_table<Geometry>(
         "The lumen: a surface file, a network file or a shape.",
         {
             row(&Geometry::surface, {.key = "surface", .help = "a file with the surface of the lumen (STL, VTP)",
                                      .example = "\"lumen.stl\""}),
-            row(&Geometry::network, {.key = "network", .help = "a file with centrelines and radii (JSON)",
+            row(&Geometry::network, {.key = "network", .help = "a file with centrelines and radii (JSON, VTP, VTK, SWC)",
                                      .example = "\"network.json\""}),
             row(&Geometry::shape, {.key = "shape", .help = "a shape by its measures"}),
             row(&Geometry::unit, {.key = "unit", .help = "the unit of the file's coordinates: m, cm, mm or um",
                                   .example = "mm"}),
             row(&Geometry::space, {.key = "space", .help = "the axes of the file's coordinates: LPS or RAS",
                                    .example = "LPS"}),
-            row(&Geometry::lesion, {.key = "lesion", .help = "where the stenosis is"}),
+            row(&Geometry::lesion, {.key = "lesion", .help = "a stenosis that narrows a branch of the network"}),
             row(&Geometry::extensions, {.key = "extensions", .help = "straight pieces put on the openings"}),
         },
         {{.keys = {"surface", "network", "shape"}}});

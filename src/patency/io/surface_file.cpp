@@ -12,6 +12,7 @@
 #include "patency/base/text.h"
 #include "patency/base/units.h"
 #include "patency/io/atomic_file.h"
+#include "patency/io/image_file.h"
 #include "patency/io/surface_formats.h"
 #include "patency/io/vtp.h"
 
@@ -36,8 +37,8 @@ Surface parse(const SurfaceBytes& file) {
     if (extension == ".obj") return parse_obj(file);
     if (extension == ".stl") return parse_stl(file);
     refuse_file(file,
-                "it is no surface in a format that is known here: STL, VTP, PLY, OBJ or legacy VTK. Export it as one "
-                "of these.");
+                "it is no surface in a format that is known here: STL, VTP, PLY, OBJ, legacy VTK, NIfTI, NRRD or "
+                "MetaImage. Export it as one of these.");
 }
 
 void expect_sound(const SurfaceBytes& file, const Surface& surface) {
@@ -71,14 +72,24 @@ void refuse_file(const SurfaceBytes& file, std::string_view reason) {
     throw FileError(fmt::format("cannot read '{}': {}", file.path.string(), reason));
 }
 
-Surface read_surface(const std::filesystem::path& path, std::string_view unit, std::string_view space) {
-    const std::vector<std::string> units = unit_names(Dimension::length);
-    if (std::find(units.begin(), units.end(), unit) == units.end())
-        throw UsageError(
-            fmt::format("'{}' is no unit of a surface; it is one of {}.", shortened(unit), join(units, ", ", " or ")));
+Surface read_surface(const std::filesystem::path& path, std::string_view unit, std::string_view space, std::optional<int> label) {
     if (!space.empty() && space != "LPS" && space != "RAS")
         throw UsageError(fmt::format("'{}' is no space; it is LPS or RAS.", shortened(space)));
     const std::string bytes = read_file(path);
+    if (is_image(bytes)) {
+        if (!unit.empty() && unit != "mm")
+            throw UsageError(fmt::format("'{}' is an image, which knows its unit: leave {} out.", path.string(), shortened(unit)));
+        Surface surface = make_image_surface(parse_image(path, bytes), label);
+        if (!space.empty()) surface.space = space;
+        return surface;
+    }
+    if (label) throw UsageError(fmt::format("'{}' is no label map, so it has no label {}.", path.string(), *label));
+    const std::vector<std::string> units = unit_names(Dimension::length);
+    if (unit.empty())
+        throw UsageError(fmt::format("'{}' does not say its unit: give {}.", path.string(), join(units, ", ", " or ")));
+    if (std::find(units.begin(), units.end(), unit) == units.end())
+        throw UsageError(
+            fmt::format("'{}' is no unit of a surface; it is one of {}.", shortened(unit), join(units, ", ", " or ")));
     const SurfaceBytes file{path, bytes};
     Surface surface = parse(file);
     const double per_metre = in_unit(1, unit);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formats of surface files, one function each: bytes in, a surface in the file's own unit out. Indices and numbers
-// are as found; surface_file.cpp checks them. For surface_file.cpp only.
+// are as found; surface_file.cpp checks them. For surface_file.cpp and network_file.cpp only.
 #pragma once
 
 #include <filesystem>
@@ -25,6 +25,15 @@ Surface parse_ply(const SurfaceBytes& file);   ///< text or binary
 Surface parse_obj(const SurfaceBytes& file);
 Surface parse_vtp(const SurfaceBytes& file);
 Surface parse_legacy_vtk(const SurfaceBytes& file);
+
+struct CentrelineData {
+    std::vector<Vec3> points;
+    std::vector<double> radii;                          ///< one per point
+    std::vector<std::array<std::uint32_t, 2>> edges;   ///< between points
+    std::string space;
+};
+/// The lines of a VTP or legacy file and their point array of radii.
+CentrelineData parse_vtk_lines(const SurfaceBytes& file);
 
 bool is_stl_text(std::string_view bytes);     ///< begins with "solid" and is text
 bool is_stl_binary(std::string_view bytes);   ///< has just the length that its number of triangles needs

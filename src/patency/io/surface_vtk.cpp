@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTP and legacy VTK polydata, read by VTK from memory. What VTK would print goes into the error's sentence; counts that
+// VTP and legacy VTK polydata, surfaces and centrelines, read by VTK from memory. What VTK would print goes into the error's sentence; counts that
 // VTK believes without looking are checked before and after.
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -10,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
@@ -100,13 +101,23 @@ std::vector<std::vector<std::uint32_t>> cells_of(const SurfaceBytes& file, vtkCe
     return result;
 }
 
-Surface surface_of(const SurfaceBytes& file, vtkPolyData& data) {
-    Surface surface;
+std::vector<Vec3> points_of(vtkPolyData& data) {
+    std::vector<Vec3> points;
     for (vtkIdType k = 0; k < data.GetNumberOfPoints(); ++k) {
         double x[3];
         data.GetPoint(k, x);
-        surface.points.push_back({x[0], x[1], x[2]});
+        points.push_back({x[0], x[1], x[2]});
     }
+    return points;
+}
+
+std::string space_of(vtkPolyData& data) {
+    auto* space = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("SPACE"));
+    return space && space->GetNumberOfValues() > 0 ? space_mark("SPACE=" + space->GetValue(0)) : "";
+}
+
+Surface surface_of(const SurfaceBytes& file, vtkPolyData& data) {
+    Surface surface{.points = points_of(data), .space = space_of(data)};
     const auto polygons = cells_of(file, *data.GetPolys()), strips = cells_of(file, *data.GetStrips());
     vtkDataArray* ids = data.GetCellData()->GetArray("ModelFaceID");
     const vtkIdType first = data.GetNumberOfVerts() + data.GetNumberOfLines();   // of the polygons among the cells
@@ -127,10 +138,26 @@ Surface surface_of(const SurfaceBytes& file, vtkPolyData& data) {
         }
         give_id(polygons.size() + k);
     }
-    if (auto* space = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("SPACE"));
-        space && space->GetNumberOfValues() > 0)
-        surface.space = space_mark("SPACE=" + space->GetValue(0));
     return surface;
+}
+
+CentrelineData centrelines_of(const SurfaceBytes& file, vtkPolyData& data) {
+    CentrelineData lines{.points = points_of(data), .radii = {}, .edges = {}, .space = space_of(data)};
+    vtkDataArray* radii = nullptr;
+    for (const char* name : {"MaximumInscribedSphereRadius", "Radius", "radius", "Radii", "radii"})
+        if (!radii) radii = data.GetPointData()->GetArray(name);
+    if (!radii || radii->GetNumberOfTuples() < vtkIdType(lines.points.size()))
+        refuse_file(file,
+                    "its points have no radii: a point array MaximumInscribedSphereRadius, Radius or radii is needed. Compute "
+                    "the centrelines with radii.");
+    for (std::size_t k = 0; k < lines.points.size(); ++k) lines.radii.push_back(radii->GetComponent(vtkIdType(k), 0));
+    for (const auto& line : cells_of(file, *data.GetLines()))
+        for (std::size_t k = 0; k < line.size(); ++k) {
+            if (line[k] >= lines.points.size())
+                refuse_file(file, fmt::format("a line names a point beyond the last of {}. Export it again.", lines.points.size()));
+            if (k > 0) lines.edges.push_back({line[k - 1], line[k]});
+        }
+    return lines;
 }
 
 /// Whether a child process lives through `attempt`: VTK 9.1 reads beyond its arrays in some damaged files, whatever is
@@ -153,9 +180,9 @@ bool is_survived(Attempt attempt) {
     return WIFEXITED(status);
 }
 
-/// `read` makes VTK read and returns its output.
-template <class Read>
-Surface read_with_vtk(const SurfaceBytes& file, Read read) {
+/// `read` makes VTK read and returns its output; `convert` takes what is needed of it.
+template <class Read, class Convert>
+auto read_with_vtk(const SurfaceBytes& file, Read read, Convert convert) {
     const QuietVtk quiet;
     if (!is_survived(read)) refuse_file(file, "it is damaged: VTK's reader crashes on it. Copy or export it again.");
     try {
@@ -163,7 +190,7 @@ Surface read_with_vtk(const SurfaceBytes& file, Read read) {
         if (!quiet.errors().empty() || !data)
             refuse_file(file, fmt::format("it is damaged or cut short (VTK: {}). Copy or export it again.",
                                           reason_of(quiet.errors())));
-        return surface_of(file, *data);
+        return convert(file, *data);
     } catch (const std::bad_alloc&) {
         refuse_file(file, "its counts need more memory than there is: it is damaged. Copy or export it again.");
     }
@@ -235,9 +262,8 @@ void expect_sound_tables(const SurfaceBytes& file) {
     }
 }
 
-}   // namespace
-
-Surface parse_vtp(const SurfaceBytes& file) {
+template <class Convert>
+auto read_vtp(const SurfaceBytes& file, Convert convert) {
     const std::string_view start = file.bytes.substr(0, 4096);
     if (start.find("type=\"PolyData\"") == start.npos)
         refuse_file(file,
@@ -250,10 +276,11 @@ Surface parse_vtp(const SurfaceBytes& file) {
         reader->SetInputString(std::string(file.bytes));
         reader->Update();
         return vtkSmartPointer<vtkPolyData>(reader->GetErrorCode() == 0 ? reader->GetOutput() : nullptr);
-    });
+    }, convert);
 }
 
-Surface parse_legacy_vtk(const SurfaceBytes& file) {
+template <class Convert>
+auto read_legacy_vtk(const SurfaceBytes& file, Convert convert) {
     if (file.bytes.find("DATASET POLYDATA") == file.bytes.npos)
         refuse_file(file,
                     "it is a VTK file of another type than POLYDATA. Extract the surface (in ParaView: Extract "
@@ -268,7 +295,17 @@ Surface parse_legacy_vtk(const SurfaceBytes& file) {
         reader->ReadAllFieldsOn();
         reader->Update();
         return vtkSmartPointer<vtkPolyData>(reader->GetErrorCode() == 0 ? reader->GetOutput() : nullptr);
-    });
+    }, convert);
+}
+
+}   // namespace
+
+Surface parse_vtp(const SurfaceBytes& file) { return read_vtp(file, surface_of); }
+
+Surface parse_legacy_vtk(const SurfaceBytes& file) { return read_legacy_vtk(file, surface_of); }
+
+CentrelineData parse_vtk_lines(const SurfaceBytes& file) {
+    return file.bytes.starts_with("# vtk") ? read_legacy_vtk(file, centrelines_of) : read_vtp(file, centrelines_of);
 }
 
 }   // namespace patency

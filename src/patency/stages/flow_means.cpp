@@ -108,7 +108,7 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     summary["particles"] = {{"fluid", scene.fluid.size()},
                             {"inside", to.inside},
                             {"wall", scene.wall.size()},
-                            {"across_narrowest", narrowest_width(scene.config.geometry, scene.lumen) / scene.numerics.spacing}};
+                            {"across_narrowest", scene.lumen.narrowest / scene.numerics.spacing}};
     summary["spacing_m"] = scene.numerics.spacing;
     summary["sound_speed_m_per_s"] = scene.material.sound_speed;
     summary["reference_speed_m_per_s"] = scene.numerics.reference_speed;

@@ -8,8 +8,12 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/io/network_file.h"
 #include "patency/io/surface_file.h"
+#include "patency/physics/open_ends/bed.h"
+#include "patency/shape/network_lumen.h"
 #include "patency/shape/surface_lumen.h"
+#include "patency/shape/surface_openings.h"
 
 namespace patency {
 
@@ -29,6 +33,10 @@ std::vector<AxialRadius> outline_of(const deck::Shape& shape) {
         case deck::ShapeType::branches: break;
     }
     return {};
+}
+
+double extension_for(const deck::Numerics& numerics) {
+    return 12 * numerics.spacing;   // far enough for the buffer, the wall beyond it and its kernels
 }
 
 Lumen make_box_of(const deck::Case& config, const deck::Shape& shape) {
@@ -58,8 +66,7 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
         if (is_free(branches[k].from, k)) starts.push_back(k);
         if (is_free(branches[k].to, k)) ends.push_back(k);
     }
-    // Far enough for the buffer, the wall beyond it and its kernels.
-    BranchesShape result{.branches = {}, .extension = 12 * config.numerics.spacing};
+    BranchesShape result{.branches = {}, .extension = extension_for(config.numerics)};
     for (std::size_t k = 0; k < branches.size(); ++k) {
         const deck::Branch& b = branches[k];
         BranchShape branch{.points = {b.from, b.to}, .radii = {0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}, .start = {}, .end = {}};
@@ -69,6 +76,37 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
         result.branches.push_back(branch);
     }
     return make_branches(result);
+}
+
+double narrowest_width(const deck::Shape& shape) {
+    if (shape.type == deck::ShapeType::box)
+        return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
+    double width = Bounds::infinity;
+    for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
+    for (const deck::Branch& b : shape.branches)
+        for (const double d : b.diameters) width = std::min(width, d);
+    return width;
+}
+
+Lumen make_network_of(const deck::Case& config) {
+    const deck::Geometry& g = config.geometry;
+    Network network = read_network(*g.network, g.unit.value_or(""), g.space.value_or(""));
+    if (const auto& lesion = g.lesion)
+        add_lesion(network, {.tube = lesion->branch,
+                             .position = lesion->position,
+                             .length = lesion->length,
+                             .stenosis = lesion->diameter_stenosis_percent / 100,
+                             .eccentricity = lesion->eccentricity,
+                             .side = lesion->side});
+    const double dp = config.numerics.spacing;
+    constexpr double fewest_across = 4;   // as for shapes (config/checks.cpp)
+    if (narrowest_diameter(network) < fewest_across * dp)
+        throw DeckError(fmt::format("numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
+                                    "a sensible answer",
+                                    1e3 * narrowest_diameter(network)));
+    Lumen lumen = make_network_lumen(network, extension_for(config.numerics), 0.5 * dp);
+    expect_vessel_size({.opening = lumen.openings[0], .perimeter = 0, .flatness = 0}, g.unit.value_or("mm"));
+    return lumen;
 }
 
 Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
@@ -98,8 +136,15 @@ Lumen make_lumen_of_surface(const deck::Case& config) {
     expect_vessel_size(openings.front(), geometry.unit.value_or("mm"));
     // Half a spacing: the distance errs by less than a twentieth of it. Ten voxels hold the wall's points and those that may
     // become some; the continuations hold the buffer, the wall beyond it and its kernels.
-    return make_surface_lumen(checked, openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
-                                                  .straight = geometry.extensions.diameters});
+    Lumen lumen = make_surface_lumen(checked, openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
+                                                         .straight = geometry.extensions.diameters});
+    // Of the openings: a throat between them is narrower, but nobody has followed the vessel yet.
+    std::vector<double> diameters;
+    for (std::size_t k = 1; k < lumen.openings.size(); ++k) diameters.push_back(2 * lumen.openings[k].radius);
+    lumen.narrowest = std::min(2 * lumen.openings[0].radius, *std::min_element(diameters.begin(), diameters.end()));
+    const auto shares = murray_shares(diameters, 3);
+    lumen.narrowest_share = *std::min_element(shares.begin(), shares.end());
+    return lumen;
 }
 
 void expect_same_names(const deck::Case& config, const Lumen& lumen) {
@@ -108,22 +153,25 @@ void expect_same_names(const deck::Case& config, const Lumen& lumen) {
     for (const auto& [name, opening] : config.openings) {
         if (std::find(names.begin(), names.end(), name) != names.end()) continue;
         const std::string nearest = nearest_name(name, names);
-        throw DeckError(fmt::format("openings.{}: the shape has no such opening{}; it has {}", name,
+        throw DeckError(fmt::format("openings.{}: the lumen has no such opening{}; it has {}", name,
                                     nearest.empty() ? "" : ", did you mean " + nearest + "?",
                                     names.empty() ? "none" : join(names, ", ", " and ")));
     }
     for (const std::string& name : names)
         if (!config.openings.contains(name))
-            throw DeckError(fmt::format("openings.{}: what happens at this opening is missing; the shape has {}", name,
+            throw DeckError(fmt::format("openings.{}: what happens at this opening is missing; the lumen has {}", name,
                                         join(names, ", ", " and ")));
 }
 
 }  // namespace
 
 Lumen make_lumen(const deck::Case& config) {
-    const deck::Geometry& geometry = config.geometry;
-    if (geometry.network) throw GeometryError("geometry.network: vessel networks cannot be read yet; use geometry.surface or geometry.shape");
-    Lumen lumen = geometry.surface ? make_lumen_of_surface(config) : make_unchecked(config, *geometry.shape);
+    const deck::Geometry& g = config.geometry;
+    Lumen lumen = g.shape ? make_unchecked(config, *g.shape) : g.surface ? make_lumen_of_surface(config) : make_network_of(config);
+    if (g.shape) {
+        lumen.narrowest = narrowest_width(*g.shape);
+        lumen.narrowest_share = g.shape->type == deck::ShapeType::box || is_branching(g) ? 0 : 1;
+    }
     expect_same_names(config, lumen);
     return lumen;
 }
@@ -143,6 +191,10 @@ double StraightAxis::radius_at(double place) const {
     return outline.back().radius;
 }
 
+bool is_branching(const deck::Geometry& geometry) {
+    return geometry.network || geometry.surface || (geometry.shape && geometry.shape->type == deck::ShapeType::branches);
+}
+
 std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry) {
     if (!geometry.shape) return {};
     const deck::Shape& shape = *geometry.shape;
@@ -151,26 +203,6 @@ std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry) {
     const double length = outline.back().axial - outline.front().axial;
     if (shape.is_planar()) return StraightAxis{{0, outline.front().radius, 0}, {1, 0, 0}, length, Section::planar, outline};
     return StraightAxis{shape.start, normalized(shape.axis), length, Section::circular, outline};
-}
-
-double narrowest_width(const deck::Geometry& geometry, const Lumen& lumen) {
-    double width = Bounds::infinity;
-    if (!geometry.shape) {
-        for (const Opening& opening : lumen.openings) width = std::min(width, 2 * opening.radius);
-        return width;
-    }
-    const deck::Shape& shape = *geometry.shape;
-    if (shape.type == deck::ShapeType::box)
-        return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
-    for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
-    for (const deck::Branch& b : shape.branches)
-        for (const double d : b.diameters) width = std::min(width, d);
-    return width;
-}
-
-bool is_single_vessel(const deck::Geometry& geometry, const Lumen& lumen) {
-    if (!geometry.shape) return lumen.openings.size() == 2;
-    return geometry.shape->type != deck::ShapeType::box && geometry.shape->type != deck::ShapeType::branches;
 }
 
 std::string_view plane_wall_name(const Vec3& n) {

@@ -12,8 +12,8 @@
 
 namespace patency {
 
-/// The lumen of geometry.shape or geometry.surface with its openings named. Throws GeometryError for shapes that cannot be,
-/// for surfaces with defects and for networks; FileError; DeckError if the deck names openings that the shape has not, or leaves one out.
+/// The lumen of geometry.shape, geometry.surface or geometry.network with its openings named. Throws GeometryError for what cannot be and for
+/// surfaces with defects; FileError; DeckError if the deck names openings that the lumen has not, leaves one out, or has too large a spacing for it.
 Lumen make_lumen(const deck::Case& config);
 
 /// A lumen around one straight axis: a channel, tube, cone, nozzle.
@@ -29,14 +29,11 @@ struct StraightAxis {
     /// Radius or half gap at a place along the axis; constant beyond the ends [m].
     double radius_at(double axial) const;
 };
-/// None for boxes in space, for branches and for surfaces.
+/// None for boxes in space, branches, surfaces and networks.
 std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry);
 
-/// The smallest width anywhere: a gap, a side or a diameter [m]; of a surface's lumen that of its smallest opening.
-double narrowest_width(const deck::Geometry& geometry, const Lumen& lumen);
-
-/// Whether the same blood passes everywhere between one inlet and one outlet.
-bool is_single_vessel(const deck::Geometry& geometry, const Lumen& lumen);
+/// Whether the lumen branches.
+bool is_branching(const deck::Geometry& geometry);
 
 /// Name of the plane wall that has this normal out of the blood: x_low, x_high, y_low, ...
 std::string_view plane_wall_name(const Vec3& normal);

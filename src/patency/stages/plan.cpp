@@ -24,7 +24,7 @@ constexpr double viscous_number = 0.125;   // as the scheme's: dt <= 0.125 h^2 /
 FlowPlan plan_flow(const Scene& scene, int threads) {
     const FlowNumerics& n = scene.numerics;
     const double dp = n.spacing, h = n.smoothing_ratio * dp, c = scene.material.sound_speed, u = n.reference_speed;
-    const double cell = n.planar ? dp * dp : dp * dp * dp, width = narrowest_width(scene.config.geometry, scene.lumen);
+    const double cell = n.planar ? dp * dp : dp * dp * dp, width = scene.lumen.narrowest;
     const double developed = parabola_profile(n.planar ? Section::planar : Section::circular, 0);
     const double thickness = 2 * h + 0.5 * dp, beyond = buffer_spacings * dp;
     double area = 0, rim = 0;

@@ -31,9 +31,9 @@ std::pair<double, double> range_of(const deck::Case& config, F f) {
 }
 
 /// The speed on the axis that a gradient G [Pa/m] drives in the steady state, through the narrowest width.
-double poiseuille_peak(double width, bool is_planar, double gradient, double viscosity) {
-    const double a = 0.5 * width;
-    return gradient * a * a / ((is_planar ? 2 : 4) * viscosity);
+double poiseuille_peak(const Lumen& lumen, double gradient, double viscosity) {
+    const double a = 0.5 * lumen.narrowest;
+    return gradient * a * a / ((lumen.planar ? 2 : 4) * viscosity);
 }
 
 double length_of(const Lumen& lumen) {
@@ -46,10 +46,9 @@ double length_of(const Lumen& lumen) {
 }  // namespace
 
 Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws, const FluidMaterial& material) {
-    const bool is_planar = lumen.planar;
     const double rho = material.density, mu = material.viscosity, length = length_of(lumen);
-    const double width = narrowest_width(config.geometry, lumen);
-    const double narrowest_area = is_planar ? width : 0.25 * std::numbers::pi * width * width;
+    const double width = lumen.narrowest;
+    const double narrowest_area = lumen.planar ? width : 0.25 * std::numbers::pi * width * width;
     Expected expected;
 
     double inflow = 0, largest_peak = 0, resistance = 0;
@@ -64,12 +63,10 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
         expected.speed = std::max(expected.speed, flow / lumen.openings[k].area * std::abs(laws[k].peak_to_mean));
     }
     expected.outflow = inflow;
-    // A developed profile behind a plug, and continuity through the narrowest place of a single vessel.
-    const double developed = parabola_profile(is_planar ? Section::planar : Section::circular, 0);
-    if (is_single_vessel(config.geometry, lumen))
-        expected.speed = std::max(expected.speed, inflow / narrowest_area * std::max(largest_peak, developed));
-    else if (!config.geometry.shape || config.geometry.shape->type == deck::ShapeType::branches)
-        expected.speed *= developed / std::max(1.0, std::min(developed, largest_peak));
+    // A developed profile behind a plug, and continuity through the narrowest place.
+    const double developed = parabola_profile(lumen.planar ? Section::planar : Section::circular, 0);
+    if (is_branching(config.geometry)) expected.speed *= developed / std::max(1.0, std::min(developed, largest_peak));
+    expected.speed = std::max(expected.speed, lumen.narrowest_share * inflow / narrowest_area * std::max(largest_peak, developed));
 
     double lowest = Bounds::infinity, highest = -Bounds::infinity, offset = 0;
     for (const EndLaw& law : laws) {
@@ -87,7 +84,7 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     if (!is_driven_by_flow) {
         const double gradient = driving / length + rho * norm(config.body_force);
         const double bernoulli = std::sqrt(2 * gradient * length / rho);
-        const double viscous = std::min(poiseuille_peak(width, is_planar, gradient, mu), bernoulli);
+        const double viscous = std::min(poiseuille_peak(lumen, gradient, mu), bernoulli);
         expected.speed = std::max(expected.speed, viscous);
     }
     for (const auto& [name, velocity] : config.wall.velocity) expected.speed = std::max(expected.speed, norm(velocity));
@@ -102,7 +99,7 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     // What flows loses pressure: the dynamic one and Poiseuille's.
     const double a = 0.5 * width;
     const double loss = 0.5 * rho * expected.speed * expected.speed +
-                        (is_driven_by_flow ? expected.speed * (is_planar ? 2 : 4) * mu / (a * a) * length : 0);
+                        (is_driven_by_flow ? expected.speed * (lumen.planar ? 2 : 4) * mu / (a * a) * length : 0);
     const bool is_fixed = config.numerics.pressure_reference == deck::PressureReference::fixed;
     expected.pressure_range = std::max(driving, is_fixed ? offset + resistance * inflow : 0.0) + loss;
     return expected;
