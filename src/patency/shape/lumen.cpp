@@ -44,7 +44,7 @@ int opening_beyond(const Lumen& lumen, const Vec3& x, double margin) {
         const Opening& opening = lumen.openings[k];
         const auto [s, radial] = opening_coordinates(opening, x);
         // Behind `extension` the distance may end in a round cap.
-        if (s > 0 && s < lumen.extension + 2 * opening.reach &&
+        if (s > 0 && s < lumen.extension + 2 * opening.reach + margin &&
             norm(radial) <= (1 + 1e-9) * opening.reach + margin)
             return int(k);
     }

@@ -51,7 +51,7 @@ struct Lumen {
 };
 
 /// Which opening's straight continuation holds x (its index), or -1. x may lie up to `margin` [m] beside the
-/// opening's reach (for places inside the wall).
+/// opening's reach and past the continuation's end (for places inside the wall).
 int opening_beyond(const Lumen& lumen, const Vec3& x, double margin = 0);
 
 /// Inside the wall and behind all openings. The plane of one opening does not cut off another branch.

@@ -155,10 +155,10 @@ Lumen make_surface_lumen(const CheckedSurface& checked, std::span<const SurfaceO
         opening.mean_square = mean_square(surface, plane);
         lumen.openings.push_back(std::move(opening));
     }
-    // The face that closes a continuation is farther away than its side, wherever particles are.
+    // As far as opening_beyond() sees; the closing face is farther away than the side up to the extension's end.
     for (std::size_t k = 0; k < planes.size(); ++k) {
         const FlatLoop& plane = planes[k];
-        const double length = settings.extension + 2 * plane.reach + settings.outside;
+        const double length = settings.extension + 2 * plane.reach;
         const int rings = std::max(1, int(std::ceil(length / plane.reach)));   // slender triangles make a slow tree
         const auto first = std::uint32_t(surface.points.size());
         Rim rim = plane.rim;
