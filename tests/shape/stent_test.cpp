@@ -186,7 +186,7 @@ TEST(StrutMap, GridChangesNothing) {
     const StrutMap map(curves);
     std::mt19937 engine(3);
     std::uniform_real_distribution<double> unit(-0.5, 0.5);
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < 60; ++k) {
         const FlatPoint x{3 * unit(engine) * curves.circumference(), 1.5 * unit(engine) * curves.length};
         double least = 1;
         for (const Strut& strut : curves.struts)
