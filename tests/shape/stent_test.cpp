@@ -174,8 +174,20 @@ TEST_P(Library, KeepsItsStrutsWhenItOpens) {
     EXPECT_LT(open.length, pattern_.length);
     EXPECT_GT(open.length, 0.7 * pattern_.length);
     const StentMeasures cut = measure_stent(curves_), opened = measure_stent(make_strut_curves(open));
-    // Exactly so along the centreline; corners of connectors change a little.
-    EXPECT_NEAR(opened.plan_area, cut.plan_area, 0.01 * cut.plan_area);
+    // A ring's centreline keeps its length; connectors that lead aside become longer, and the metal by as much.
+    const auto length_of = [](const Strut& strut) {
+        double sum = 0;
+        for (std::size_t k = 1; k < strut.points.size(); ++k)
+            sum += std::hypot(strut.points[k].around - strut.points[k - 1].around,
+                              strut.points[k].along - strut.points[k - 1].along);
+        return sum;
+    };
+    const StrutCurves wide = make_strut_curves(open);
+    double added = 0;
+    for (std::size_t k = 0; k < wide.struts.size(); ++k)
+        added += 2 * wide.struts[k].half_width * (length_of(wide.struts[k]) - length_of(curves_.struts[k]));
+    EXPECT_NEAR(length_of(wide.struts[0]), length_of(curves_.struts[0]), 2e-3 * length_of(wide.struts[0]));
+    EXPECT_NEAR(opened.plan_area, cut.plan_area + added, 0.01 * cut.plan_area);
     EXPECT_LT(opened.metal_ratio, cut.metal_ratio);
     const StentPattern back = at_diameter(open, pattern_.diameter);
     EXPECT_NEAR(back.length, pattern_.length, 1e-9 * pattern_.length);
@@ -186,7 +198,7 @@ TEST(StrutMap, GridChangesNothing) {
     const StrutMap map(curves);
     std::mt19937 engine(3);
     std::uniform_real_distribution<double> unit(-0.5, 0.5);
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < 60; ++k) {
         const FlatPoint x{3 * unit(engine) * curves.circumference(), 1.5 * unit(engine) * curves.length};
         double least = 1;
         for (const Strut& strut : curves.struts)

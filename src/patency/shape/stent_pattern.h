@@ -75,8 +75,8 @@ StrutCurves make_strut_curves(const StentPattern& pattern);
 double ring_amplitude(const StentPattern& pattern);
 
 /// The pattern opened or crimped to another outer diameter: struts keep their length and crowns their radius, so rings
-/// become shorter as they open. Kinematics, no mechanics. Throws GeometryError if the struts are too short or in each
-/// other's way.
+/// become shorter as they open; connectors keep the gap, so those that lead aside become longer. Kinematics, no
+/// mechanics. Throws GeometryError if the struts are too short or in each other's way.
 StentPattern at_diameter(const StentPattern& pattern, double diameter);
 
 struct Alloy {
