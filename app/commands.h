@@ -16,6 +16,7 @@ void add_schema_command(CLI::App& program, ExitCode& exit_code);
 void add_check_command(CLI::App& program, ExitCode& exit_code);
 void add_inspect_command(CLI::App& program, ExitCode& exit_code);
 void add_stent_command(CLI::App& program, ExitCode& exit_code);
+void add_estimate_command(CLI::App& program, ExitCode& exit_code);
 void add_flow_command(CLI::App& program, ExitCode& exit_code);
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);

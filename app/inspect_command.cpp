@@ -19,11 +19,7 @@
 #include "patency/io/surface_file.h"
 #include "patency/io/surface_picture.h"
 #include "patency/io/vtp.h"
-#include "patency/shape/exact_distance.h"
-#include "patency/shape/lesions.h"
-#include "patency/shape/network_lumen.h"
-#include "patency/shape/surface_check.h"
-#include "patency/shape/surface_openings.h"
+#include "patency/stages/vessel.h"
 
 namespace patency::app {
 
@@ -37,19 +33,7 @@ struct InspectOptions {
     std::optional<int> label;
 };
 
-/// What is known of a vessel along its centrelines.
-struct VesselAlong {
-    BranchedLines lines;
-    std::vector<std::vector<Section>> sections;
-    Assessment assessment;
-};
-
-struct Inspection {
-    std::size_t triangles_read;
-    CheckedSurface checked;
-    std::vector<SurfaceOpening> openings;
-    std::optional<VesselAlong> along{};   ///< if the surface can be used
-
+struct Inspection : Vessel {
     double wall_area() const {   // what closes an end is no wall
         double sum = area(checked.surface);
         for (const SurfaceOpening& opening : openings)
@@ -58,45 +42,10 @@ struct Inspection {
     }
 };
 
-VesselAlong follow(const CheckedSurface& checked, const std::vector<SurfaceOpening>& found) {
-    std::vector<Opening> openings;
-    for (const SurfaceOpening& o : found) openings.push_back(o.opening);
-    const Surface closed = closed_at(checked.surface, checked.ends);
-    VesselAlong along{find_branches(find_centrelines(make_exact_distance(closed), openings)), {}, {}};
-    along.sections = cut_sections(closed, along.lines);
-    along.assessment = assess_lesions(along.lines, along.sections);
-    return along;
-}
-
-/// The centrelines, or why there are none as one more finding.
-void add_centrelines(Inspection& r) {
-    if (!refusals(r.checked.findings).empty()) return;
-    try {
-        r.along = follow(r.checked, r.openings);
-    } catch (const GeometryError& e) {
-        r.checked.findings.push_back({"no_centreline", Verdict::refused, 1, r.openings[0].opening.centre,
-                                      diagonal(bounds(r.checked.surface)), e.what()});
-    }
-}
-
 Inspection inspect(const InspectOptions& o) {
-    std::vector<Opening> named;   // of a network, in the order of their face ids from 2 on
-    Surface surface;
-    if (holds_network(o.path)) {
-        const Network network = read_network(o.path, o.unit, o.space);
-        named = openings_of(network, 0);
-        surface = make_network_surface(network, 0.5 * narrowest_diameter(network));
-    } else {
-        surface = read_surface(o.path, o.unit, o.space, o.label);
-    }
-    Inspection result{surface.triangles.size(), check_surface(std::move(surface)), {}};
-    result.openings = find_openings(result.checked);
-    for (SurfaceOpening& opening : result.openings)
-        if (opening.face_id && !named.empty()) opening.opening.name = named.at(std::size_t(*opening.face_id) - 2).name;
-    for (Finding& finding : find_missing_openings(result.openings))
-        result.checked.findings.push_back(std::move(finding));
-    if (!o.inlet.empty()) choose_inlet(result.openings, o.inlet);
-    add_centrelines(result);
+    Inspection result{holds_network(o.path) ? check_vessel(read_network(o.path, o.unit, o.space), o.inlet)
+                                            : check_vessel(read_surface(o.path, o.unit, o.space, o.label), o.inlet)};
+    follow_vessel(result);
     return result;
 }
 

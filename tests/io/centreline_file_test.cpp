@@ -37,7 +37,7 @@ vtkSmartPointer<vtkPolyData> read(const fs::path& path) {
 TEST(CentrelineFile, HasTheArraysThatPeersRead) {
     const Lumen cone = make_cone({.length = 10e-3, .inlet_radius = 2e-3, .outlet_radius = 1e-3});
     const BranchedLines vessel = find_branches(find_centrelines(cone.distance, cone.openings));
-    std::vector<std::vector<Section>> sections(1);
+    std::vector<std::vector<CrossSection>> sections(1);
     for (const CentrelinePoint& p : vessel.lines[0].points)
         sections[0].push_back(
             {.place = p.place, .normal = p.tangent, .area = 4e-6, .is_closed = true, .holds_place = true});

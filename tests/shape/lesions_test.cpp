@@ -14,14 +14,14 @@ namespace {
 
 constexpr double pi = std::numbers::pi, mm = 1e-3;
 
-TEST(Section, OfATubeIsAnEllipseWherePlanesAreOblique) {
+TEST(CrossSection, OfATubeIsAnEllipseWherePlanesAreOblique) {
     const std::uint32_t around = 96;
     const Surface tube = make_tube_mesh({.radius = mm, .length = 10 * mm, .around = around, .along = 30});
     const SectionCutter cutter(tube);
     const double polygon = 0.5 * around * std::sin(2 * pi / around) * mm * mm;   // area of the facets' outline
     for (double degrees : {0.0, 20.0, 45.0}) {
         const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
-        const Section section = cutter.cut({5 * mm, 0.2 * mm, 0}, {c, s, 0});
+        const CrossSection section = cutter.cut({5 * mm, 0.2 * mm, 0}, {c, s, 0});
         EXPECT_TRUE(section.is_closed);
         EXPECT_TRUE(section.holds_place);
         EXPECT_NEAR(section.area, polygon / c, 1e-9 * polygon);
@@ -31,16 +31,16 @@ TEST(Section, OfATubeIsAnEllipseWherePlanesAreOblique) {
     EXPECT_NEAR(cutter.cut({5 * mm, 0, 0}, {1, 0, 0}).perimeter, 2 * around * std::sin(pi / around) * mm, 1e-9 * mm);
 }
 
-TEST(Section, IsTheOneAroundThePlaceAndSaysIfItIsOpen) {
+TEST(CrossSection, IsTheOneAroundThePlaceAndSaysIfItIsOpen) {
     const Surface torus = make_torus_mesh(4 * mm, mm, 120, 80);
     const SectionCutter cutter(torus);
-    const Section section = cutter.cut({4 * mm, 0, 0}, {0, 1, 0});   // the plane cuts the other side too
+    const CrossSection section = cutter.cut({4 * mm, 0, 0}, {0, 1, 0});   // the plane cuts the other side too
     EXPECT_NEAR(section.area, pi * mm * mm, 2e-3 * pi * mm * mm);
     EXPECT_TRUE(section.holds_place);
     EXPECT_FALSE(cutter.cut({0, 0, 0}, {0, 1, 0}).holds_place);
     EXPECT_EQ(cutter.cut({20 * mm, 0, 0}, {1, 0, 0}).area, 0);
     const Surface open = make_tube_mesh({.radius = mm, .length = 10 * mm});
-    const Section at_end =
+    const CrossSection at_end =
         SectionCutter(open).cut({0.2 * mm, 0, 0}, normalized(Vec3{1, 1, 0}));   // runs out of the end
     EXPECT_FALSE(at_end.is_closed);
     EXPECT_GT(at_end.area, 0.5 * pi * mm * mm);
@@ -49,7 +49,7 @@ TEST(Section, IsTheOneAroundThePlaceAndSaysIfItIsOpen) {
 /// A round vessel along x with a radius as a function of x, its centreline and sections as they are.
 struct Straight {
     BranchedLines vessel;
-    std::vector<std::vector<Section>> sections;
+    std::vector<std::vector<CrossSection>> sections;
 };
 template <class Radius>
 Straight straight(double length, Radius radius, double bifurcation_from = -1, double bifurcation_to = -1) {
@@ -58,7 +58,7 @@ Straight straight(double length, Radius radius, double bifurcation_from = -1, do
     s.sections.emplace_back();
     for (double x = 0; x < length + 1e-9; x += 0.1 * mm) {
         line.points.push_back({{x, 0, 0}, {1, 0, 0}, radius(x), x});
-        Section section{.place = {x, 0, 0}, .normal = {1, 0, 0}, .is_closed = true, .holds_place = true};
+        CrossSection section{.place = {x, 0, 0}, .normal = {1, 0, 0}, .is_closed = true, .holds_place = true};
         section.area = pi * radius(x) * radius(x);
         section.is_shared = x > bifurcation_from && x < bifurcation_to;
         s.sections.back().push_back(section);

@@ -12,7 +12,7 @@ constexpr double mm = 1e3, mm2 = 1e6;
 }   // namespace
 
 void write_centrelines(const std::filesystem::path& path, const BranchedLines& vessel,
-                       const std::vector<std::vector<Section>>& sections, const Assessment& assessment,
+                       const std::vector<std::vector<CrossSection>>& sections, const Assessment& assessment,
                        const std::string& space) {
     PointArray radius{"maximum_inscribed_sphere_radius", "mm"}, arc{"abscissas", "mm"},
         area{"centerline_section_area", "mm^2"}, normal{"centerline_section_normal", "1", 3},
@@ -25,7 +25,7 @@ void write_centrelines(const std::filesystem::path& path, const BranchedLines& v
         std::vector<std::uint32_t>& line = data.lines.emplace_back();
         for (std::size_t k = 0; k < vessel.lines[j].points.size(); ++k) {
             const CentrelinePoint& p = vessel.lines[j].points[k];
-            const Section& section = sections[j][k];
+            const CrossSection& section = sections[j][k];
             line.push_back(std::uint32_t(data.points.size()));
             data.points.push_back(p.place);
             radius.values.push_back(mm * p.radius);

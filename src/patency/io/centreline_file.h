@@ -15,7 +15,7 @@ namespace patency {
 /// (widths), CenterlineSectionClosed, CenterlineSectionBifurcation (1 where other branches pass through the section too);
 /// and HealthyDiameter. Throws FileError.
 void write_centrelines(const std::filesystem::path& path, const BranchedLines& vessel,
-                       const std::vector<std::vector<Section>>& sections, const Assessment& assessment,
+                       const std::vector<std::vector<CrossSection>>& sections, const Assessment& assessment,
                        const std::string& space = {});
 
 }   // namespace patency

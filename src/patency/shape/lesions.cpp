@@ -24,14 +24,14 @@ struct Profile {
     std::size_t size() const { return arc.size(); }
 };
 
-Profile profile_of(const BranchedLines& vessel, const std::vector<Section>& sections, std::size_t j) {
+Profile profile_of(const BranchedLines& vessel, const std::vector<CrossSection>& sections, std::size_t j) {
     Profile profile;
     profile.branch = vessel.branch_ids[j];
     const auto& points = vessel.lines[j].points;
     for (std::size_t k = 0; k < points.size(); ++k) {
         profile.arc.push_back(points[k].arc);
         profile.diameter.push_back(2 * points[k].radius);
-        const Section& s = sections[k];
+        const CrossSection& s = sections[k];
         profile.area.push_back(s.is_shared || !s.holds_place ? 0 : s.area);
     }
     return profile;
@@ -229,7 +229,7 @@ private:
 
 }   // namespace
 
-Assessment assess_lesions(const BranchedLines& vessel, const std::vector<std::vector<Section>>& sections,
+Assessment assess_lesions(const BranchedLines& vessel, const std::vector<std::vector<CrossSection>>& sections,
                           const LesionRule& rule) {
     Assessment result;
     for (std::size_t j = 0; j < vessel.lines.size(); ++j) {

@@ -49,7 +49,7 @@ struct Assessment {
 /// Valleys of the diameter along each line (14.5); a tapering, the step at a bifurcation and the bulge in it are none.
 /// Shoulders (14.6) and references (14.7) lie in the lesion's own branch, with no other branch between (Mintz et al.
 /// 2001); a lesion in a bifurcation belongs to the branch after it.
-Assessment assess_lesions(const BranchedLines& vessel, const std::vector<std::vector<Section>>& sections,
+Assessment assess_lesions(const BranchedLines& vessel, const std::vector<std::vector<CrossSection>>& sections,
                           const LesionRule& rule = {});
 
 /// Values per point of a line, at an arc length from the inlet [m]; the line's ends beyond them.

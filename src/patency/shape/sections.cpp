@@ -83,7 +83,7 @@ double nearest(const std::vector<Flat>& p) {
     return square;
 }
 
-void measure_widths(Section& section, const std::vector<Flat>& p) {
+void measure_widths(CrossSection& section, const std::vector<Flat>& p) {
     section.least_width = Bounds::infinity;
     for (int k = 0; k < width_directions; ++k) {
         const double angle = std::numbers::pi * k / width_directions, c = std::cos(angle), s = std::sin(angle);
@@ -139,18 +139,18 @@ struct Cut {
 
 }   // namespace
 
-double Section::diameter() const { return 2 * std::sqrt(area / std::numbers::pi); }
+double CrossSection::diameter() const { return 2 * std::sqrt(area / std::numbers::pi); }
 
-Section SectionCutter::cut(const Vec3& place, const Vec3& normal) const {
+CrossSection SectionCutter::cut(const Vec3& place, const Vec3& normal) const {
     const Vec3 u = normalized(cross(normal, std::abs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})),
                v = cross(normal, u);
     const Cut cut{surface_, place, normal};
-    Section best{.place = place, .normal = normal};
+    CrossSection best{.place = place, .normal = normal};
     std::vector<Flat> best_flat;
     double best_nearest = Bounds::infinity;
     for (const Chain& chain : chains_of(cut.pieces(tree_))) {
         if (chain.edges.size() < 3) continue;
-        Section section{.place = place, .normal = normal, .is_closed = chain.is_closed};
+        CrossSection section{.place = place, .normal = normal, .is_closed = chain.is_closed};
         std::vector<Flat> flat;
         for (const Edge& edge : chain.edges) {
             section.outline.push_back(cut.crossing(edge));
@@ -177,7 +177,7 @@ Section SectionCutter::cut(const Vec3& place, const Vec3& normal) const {
 namespace {
 
 /// Whether the line passes through the section.
-bool passes_through(const Centreline& line, const Section& section) {
+bool passes_through(const Centreline& line, const CrossSection& section) {
     const Vec3 n = section.normal;
     const Vec3 u = normalized(cross(n, std::abs(n.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), v = cross(n, u);
     std::vector<Flat> flat;
@@ -197,12 +197,12 @@ bool passes_through(const Centreline& line, const Section& section) {
 
 }   // namespace
 
-std::vector<std::vector<Section>> cut_sections(const Surface& surface, const BranchedLines& vessel) {
+std::vector<std::vector<CrossSection>> cut_sections(const Surface& surface, const BranchedLines& vessel) {
     const SectionCutter cutter(surface);
-    std::vector<std::vector<Section>> sections;
+    std::vector<std::vector<CrossSection>> sections;
     for (std::size_t j = 0; j < vessel.lines.size(); ++j) {
         const auto& points = vessel.lines[j].points;
-        std::vector<Section>& row = sections.emplace_back(points.size());
+        std::vector<CrossSection>& row = sections.emplace_back(points.size());
         for_each_task(points.size(), [&](std::size_t k) {
             const CentrelinePoint& p = points[k];
             for (std::size_t i = 0; i < j; ++i)

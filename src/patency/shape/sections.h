@@ -10,7 +10,7 @@
 
 namespace patency {
 
-struct Section {
+struct CrossSection {
     Vec3 place, normal;                       ///< the plane's [m], unit
     std::vector<Vec3> outline{};              ///< corners in the plane, counter-clockwise seen against the normal [m]
     double area = 0;                          ///< [m^2]
@@ -30,7 +30,7 @@ public:
 
     /// The smallest outline around the place; if none goes around it, the one nearest to it. Exact but for round-off:
     /// a polygon with a corner on every edge that the plane cuts. An area of 0 where the plane cuts nothing.
-    Section cut(const Vec3& place, const Vec3& normal) const;
+    CrossSection cut(const Vec3& place, const Vec3& normal) const;
 
 private:
     const Surface& surface_;
@@ -39,6 +39,6 @@ private:
 
 /// The sections at every point of every line, across its tangent; at points that lines share, the same. The first and
 /// the last ones are those within the surface nearest to its ends.
-std::vector<std::vector<Section>> cut_sections(const Surface& surface, const BranchedLines& vessel);
+std::vector<std::vector<CrossSection>> cut_sections(const Surface& surface, const BranchedLines& vessel);
 
 }   // namespace patency

@@ -90,14 +90,7 @@ double narrowest_width(const deck::Shape& shape) {
 
 Lumen make_network_of(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
-    Network network = read_network(*g.network, g.unit.value_or(""), g.space.value_or(""));
-    if (const auto& lesion = g.lesion)
-        add_lesion(network, {.tube = lesion->branch,
-                             .position = lesion->position,
-                             .length = lesion->length,
-                             .stenosis = lesion->diameter_stenosis_percent / 100,
-                             .eccentricity = lesion->eccentricity,
-                             .side = lesion->side});
+    const Network network = read_network_of(config);
     const double dp = config.numerics.spacing;
     constexpr double fewest_across = 4;   // as for shapes (config/checks.cpp)
     if (narrowest_diameter(network) < fewest_across * dp)
@@ -164,6 +157,19 @@ void expect_same_names(const deck::Case& config, const Lumen& lumen) {
 }
 
 }  // namespace
+
+Network read_network_of(const deck::Case& config) {
+    const deck::Geometry& g = config.geometry;
+    Network network = read_network(g.network.value(), g.unit.value_or(""), g.space.value_or(""));
+    if (const auto& lesion = g.lesion)
+        add_lesion(network, {.tube = lesion->branch,
+                             .position = lesion->position,
+                             .length = lesion->length,
+                             .stenosis = lesion->diameter_stenosis_percent / 100,
+                             .eccentricity = lesion->eccentricity,
+                             .side = lesion->side});
+    return network;
+}
 
 Lumen make_lumen(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;

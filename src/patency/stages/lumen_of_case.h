@@ -9,12 +9,16 @@
 #include "patency/config/case.h"
 #include "patency/physics/open_ends/profile.h"
 #include "patency/shape/lumen.h"
+#include "patency/shape/network.h"
 
 namespace patency {
 
 /// The lumen of geometry.shape, geometry.surface or geometry.network with its openings named. Throws GeometryError for what cannot be and for
 /// surfaces with defects; FileError; DeckError if the deck names openings that the lumen has not, leaves one out, or has too large a spacing for it.
 Lumen make_lumen(const deck::Case& config);
+
+/// The network of geometry.network, narrowed by geometry.lesion. Throws FileError, GeometryError.
+Network read_network_of(const deck::Case& config);
 
 /// A lumen around one straight axis: a channel, tube, cone, nozzle.
 struct StraightAxis {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/estimate_results.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace patency {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json band_of(const Band& band) { return {band.low, band.high}; }
+
+Json opening_summary(const Estimate& e, std::size_t k, const std::optional<EstimateBand>& band, double area) {
+    Json opening{{"flow_m3_per_s", e.opening_flows[k]},
+                 {"mean_pressure_pa", e.opening_pressures[k]},
+                 {"mean_velocity_m_per_s", e.opening_flows[k] / area},
+                 {"area_m2", area}};
+    if (e.outlets[k].resistance) {
+        opening["resistance_pa_s_per_m3"] = *e.outlets[k].resistance;
+        opening["distal_pressure_pa"] = e.outlets[k].distal_pressure;
+    }
+    if (band) opening["flow_band_m3_per_s"] = band_of(band->opening_flows[k]);
+    return opening;
+}
+
+Json lesion_summary(const VesselAlong& along, const Estimate& e, std::size_t k, const std::optional<EstimateBand>& band) {
+    const EstimatedLesion& l = e.lesions[k];
+    const Lesion& lesion = along.assessment.lesions[l.number];
+    Json result{{"branch", along.lines.branches[lesion.branch].name},
+                {"throat_arc_mm", 1e3 * lesion.throat_arc},
+                {"diameter_stenosis_percent", 100 * lesion.diameter_stenosis},
+                {"minimum_diameter_mm", 1e3 * lesion.minimum_diameter},
+                {"flow_m3_per_s", l.flow},
+                {"drop_pa", l.drop},
+                {"read_arc_mm", 1e3 * l.read_arc},
+                {"ffr", or_null(l.ffr)}};
+    if (band && l.ffr) result["ffr_band"] = band_of(band->lesion_ffr[k]);
+    return result;
+}
+
+}   // namespace
+
+Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Estimate& e, const std::optional<EstimateBand>& band) {
+    const VesselAlong& along = vessel.along.value();
+    Json summary{{"name", config.about.name}, {"method", "estimate"}, {"pressure_datum", e.aortic_pressure ? "absolute" : "gauge"}};
+    Json openings = Json::object(), branches = Json::array(), lesions = Json::array();
+    for (std::size_t k = 0; k < vessel.openings.size(); ++k)
+        openings[vessel.openings[k].opening.name] = opening_summary(e, k, band, vessel.openings[k].opening.area);
+    for (std::size_t b = 0; b < e.tree.branches.size(); ++b) {
+        const auto& pressure = e.flow.pressure[b];
+        branches.push_back({{"name", e.tree.branches[b].name},
+                            {"flow_m3_per_s", e.flow.flow[b]},
+                            {"pressure_begin_pa", pressure.front()},
+                            {"pressure_end_pa", pressure.back()},
+                            {"ffr_end", or_null(e.ffr(b, pressure.size() - 1))}});
+    }
+    for (std::size_t k = 0; k < e.lesions.size(); ++k) lesions.push_back(lesion_summary(along, e, k, band));
+    std::optional<double> worst;
+    for (const EstimatedLesion& l : e.lesions)
+        if (l.ffr) worst = std::min(worst.value_or(*l.ffr), *l.ffr);
+    summary["openings"] = openings;
+    summary["branches"] = branches;
+    summary["lesions"] = lesions;
+    summary["ffr"] = {{"lesion", or_null(worst)}};
+    if (!worst) summary["ffr"]["reason"] = e.aortic_pressure ? "no lesion was found" : "the deck gives no aortic pressure";
+    return summary;
+}
+
+std::vector<Pullback> estimate_pullbacks(const Vessel& vessel, const Estimate& e) {
+    std::vector<Pullback> pullbacks;
+    const auto& lines = vessel.along.value().lines;
+    for (std::size_t line = 0; line < lines.lines.size(); ++line) {
+        Pullback p{lines.lines[line].outlet, {"arc_m", "area_m2", "flow_m3_per_s", "pressure_pa"}, {}};
+        if (e.aortic_pressure) p.columns.push_back("ffr");
+        for (std::size_t b = 0; b < lines.branches.size(); ++b) {
+            const auto& through = lines.branches[b].lines;
+            if (std::find(through.begin(), through.end(), line) == through.end()) continue;
+            const TreeBranch& branch = e.tree.branches[b];
+            for (std::size_t k = 0; k < branch.arc.size(); ++k) {
+                p.rows.push_back({branch.arc[k], branch.area[k], e.flow.flow[b], e.flow.pressure[b][k]});
+                if (e.aortic_pressure) p.rows.back().push_back(*e.ffr(b, k));
+            }
+        }
+        std::sort(p.rows.begin(), p.rows.end());
+        pullbacks.push_back(std::move(p));
+    }
+    return pullbacks;
+}
+
+}   // namespace patency

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// An estimate as numbers for files: summary.json and a pullback per outlet. Writes none.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "patency/stages/estimate.h"
+
+namespace patency {
+
+/// Openings, branches and lesions, the unit in every key; with the band if there is one.
+nlohmann::ordered_json estimate_summary(const deck::Case& config, const Vessel& vessel, const Estimate& estimate,
+                                        const std::optional<EstimateBand>& band);
+
+/// Along the line to one outlet: arc, area, flow, static pressure and, with an aortic pressure, FFR.
+struct Pullback {
+    std::string outlet;
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;
+};
+std::vector<Pullback> estimate_pullbacks(const Vessel& vessel, const Estimate& estimate);
+
+}   // namespace patency

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/vessel.h"
+
+#include <algorithm>
+
+#include "patency/base/errors.h"
+#include "patency/io/surface_file.h"
+#include "patency/shape/exact_distance.h"
+#include "patency/shape/network_lumen.h"
+#include "patency/stages/lumen_of_case.h"
+
+namespace patency {
+
+Vessel check_vessel(Surface surface, std::string_view inlet) {
+    Vessel vessel{.triangles_read = surface.triangles.size(), .checked = check_surface(std::move(surface))};
+    vessel.openings = find_openings(vessel.checked);
+    for (Finding& finding : find_missing_openings(vessel.openings)) vessel.checked.findings.push_back(std::move(finding));
+    if (!inlet.empty()) choose_inlet(vessel.openings, inlet);
+    return vessel;
+}
+
+Vessel check_vessel(const Network& network, std::string_view inlet) {
+    const std::vector<Opening> named = openings_of(network, 0);   // in the order of their face ids, from 2 on
+    Vessel vessel = check_vessel(make_network_surface(network, 0.5 * narrowest_diameter(network)));
+    for (SurfaceOpening& o : vessel.openings)
+        if (o.face_id) o.opening.name = named.at(std::size_t(*o.face_id) - 2).name;
+    std::stable_partition(vessel.openings.begin(), vessel.openings.end(),
+                          [&](const SurfaceOpening& o) { return o.opening.name == named.front().name; });
+    if (!inlet.empty()) choose_inlet(vessel.openings, inlet);
+    return vessel;
+}
+
+void follow_vessel(Vessel& vessel) {
+    CheckedSurface& checked = vessel.checked;
+    if (!refusals(checked.findings).empty()) return;
+    try {
+        std::vector<Opening> openings;
+        for (const SurfaceOpening& o : vessel.openings) openings.push_back(o.opening);
+        const Surface closed = closed_at(checked.surface, checked.ends);
+        VesselAlong along{find_branches(find_centrelines(make_exact_distance(closed), openings)), {}, {}};
+        along.sections = cut_sections(closed, along.lines);
+        along.assessment = assess_lesions(along.lines, along.sections);
+        vessel.along = std::move(along);
+    } catch (const GeometryError& e) {
+        checked.findings.push_back({"no_centreline", Verdict::refused, 1, vessel.openings[0].opening.centre,
+                                    diagonal(bounds(checked.surface)), e.what()});
+    }
+}
+
+Vessel read_vessel(const deck::Case& config) {
+    const deck::Geometry& g = config.geometry;
+    if (!g.surface && !g.network) throw DeckError("geometry: a surface or a network is needed; a shape has no branches to follow");
+    Vessel vessel = g.network ? check_vessel(read_network_of(config))
+                              : check_vessel(read_surface(*g.surface, g.unit.value_or(""), g.space.value_or("")));
+    follow_vessel(vessel);
+    if (g.network) {
+        std::vector<NamedCurve> curves;
+        for (const Tube& tube : read_network_of(config).tubes) curves.push_back({tube.name, tube.points});
+        name_branches(vessel.along.value().lines, curves);
+    }
+    if (const std::string refused = refusals(vessel.checked.findings); !refused.empty()) throw GeometryError(refused);
+    return vessel;
+}
+
+}   // namespace patency

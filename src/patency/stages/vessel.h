@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a surface is as a vessel: diagnosed, its openings found, its centrelines, branches, sections and lesions. Makes no
+// particles.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "patency/config/case.h"
+#include "patency/shape/lesions.h"
+#include "patency/shape/network.h"
+#include "patency/shape/surface_check.h"
+#include "patency/shape/surface_openings.h"
+
+namespace patency {
+
+/// A vessel along its centrelines.
+struct VesselAlong {
+    BranchedLines lines;
+    std::vector<std::vector<CrossSection>> sections;   ///< per line and point
+    Assessment assessment;
+};
+
+struct Vessel {
+    std::size_t triangles_read = 0;
+    CheckedSurface checked{};                 ///< its findings say what was repaired and what is refused
+    std::vector<SurfaceOpening> openings{};   ///< the inlet first
+    std::optional<VesselAlong> along{};       ///< none where something is refused
+};
+
+/// Diagnosed, repaired, its openings found; `inlet` (a name or a number, or empty) tells which is the inlet.
+Vessel check_vessel(Surface surface, std::string_view inlet = {});
+/// The surface of a network, its openings named as the network's.
+Vessel check_vessel(const Network& network, std::string_view inlet = {});
+
+/// Adds the centrelines and what follows from them; where there are none, why, as one more refused finding. Does nothing
+/// where something is refused already.
+void follow_vessel(Vessel& vessel);
+
+/// The vessel of a deck's surface or network, followed. Throws GeometryError with all refusals; FileError; DeckError for a deck with
+/// neither.
+Vessel read_vessel(const deck::Case& config);
+
+}   // namespace patency
