@@ -74,11 +74,15 @@ TEST_F(Commands, check_says_what_a_case_costs_and_writes_nothing) {
 
 TEST_F(Commands, a_missing_deck_is_7) { EXPECT_EQ(patency("check " + (folder_ / "none.yaml").string()).exit_code, 7); }
 
-TEST_F(Commands, a_surface_is_4_until_it_can_be_read) {
+TEST_F(Commands, a_surface_that_is_not_there_is_7_and_one_that_is_no_vessel_4) {
     std::string text = ChannelDeck{}.text();
     const std::string shape = "shape: {type: channel, gap: \"1 mm\", length: \"4 mm\"}";
     text.replace(text.find(shape), shape.size(), "surface: lumen.stl, unit: mm");
+    text.replace(text.find("initial: {velocity: parabola, speed: \"0.11 m/s\", pressure: linear}\n"), 66, "");
+    EXPECT_EQ(patency("check " + write(text)).exit_code, 7);
+    std::ofstream(folder_ / "lumen.stl") << "solid flake\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid flake\n";
     EXPECT_EQ(patency("check " + write(text)).exit_code, 4);
+    EXPECT_EQ(patency("estimate " + write(text)).exit_code, 4);
 }
 
 TEST_F(Commands, flow_writes_its_results) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "patency/base/errors.h"
@@ -46,7 +47,9 @@ TEST(Deck, AStentHasItsMeasuresAndItsPlace) {
     EXPECT_EQ(named.placement->branch, "left");
     EXPECT_DOUBLE_EQ(*named.placement->arc_length, 14.2e-3);
     EXPECT_NEAR(named.placement->rotation, 3.14159265358979 / 6, 1e-14);
-    const Stent own = *parse_case(valid_decks.back()).stent;
+    const auto deck_of_own = std::find_if(std::begin(valid_decks), std::end(valid_decks), [](const std::string& d) { return d.find("pattern:") != d.npos; });
+    ASSERT_NE(deck_of_own, std::end(valid_decks));
+    const Stent own = *parse_case(*deck_of_own).stent;
     EXPECT_EQ(own.pattern->crowns, 6);
     EXPECT_EQ(own.pattern->connector_shape, ConnectorShape::flex);
     EXPECT_DOUBLE_EQ(own.pattern->strut_thickness, 1e-4);

@@ -35,6 +35,39 @@ double profile_error(const Scene& scene) {
     return worst;
 }
 
+TEST(Flow, starts_as_a_jet_behind_a_sudden_expansion) {
+    const auto scene = build_scene(deck::parse_case(R"(version: 1
+case: {name: expansion}
+geometry:
+  shape:
+    type: nozzle
+    sections: [{z: "0 mm", diameter: "2 mm"}, {z: "4 mm", diameter: "2 mm"}, {z: "4.01 mm", diameter: "4 mm"}, {z: "10 mm", diameter: "4 mm"}]
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlet: {type: velocity, profile: parabola, velocity: "0.1 m/s"}
+  outlet: {type: pressure, pressure: "0 Pa"}
+initial: {velocity: parabola, speed: "0.1 m/s"}
+numerics: {spacing: "0.25 mm", duration: "1 ms"}
+)"));
+    int in_jet = 0, beside = 0;
+    for (std::size_t i = 0; i < scene->fluid.size(); ++i) {
+        const Vec3 &x = scene->fluid.position[i], &v = scene->fluid.velocity[i];
+        const double r = std::hypot(x.y, x.z);
+        if (x.x < 4.5e-3) continue;
+        if (r > 1.05e-3) {   // it has not widened more than that on 10 mm
+            EXPECT_EQ(v, Vec3{});
+            ++beside;
+        }
+        if (r < 0.5e-3) {   // at half of the radius 0.15 m/s
+            EXPECT_GT(v.x, 0.13);
+            EXPECT_LE(v.x, 0.2);
+            ++in_jet;
+        }
+    }
+    EXPECT_GT(in_jet, 30);
+    EXPECT_GT(beside, 100);
+}
+
 TEST(Flow, a_parabola_from_a_velocity_inlet_stays_a_parabola) {
     const auto scene = built({});
     advance(*scene, {.until = 0.01});

@@ -30,17 +30,17 @@ public:
             const double value = std::abs(over) - half_, side = over > 0 ? 1 : -1;
             return {value - edge_, side * axis_.outward(at), side / at.radius};
         }
-        const double way = half_width;   // from the centreline to the strut's side
-        const Vec3 foot = axis_.place({radius, (strut.foot.around + way * strut.direction.around) / middle_,
-                                       strut.foot.along + way * strut.direction.along});
+        const auto place_beside = [&](double way) {   // so far from the strut's centreline, in the plan
+            return axis_.place({radius, (strut.foot.around + way * strut.direction.around) / middle_,
+                                strut.foot.along + way * strut.direction.along});
+        };
+        const Vec3 foot = place_beside(half_width);
         const Vec3 to_foot = foot - x;
         const double distance = norm(to_foot);
-        if (beside) {
-            const Vec3 out = distance > 0 ? -to_foot / distance : axis_.outward(at);
-            return {distance - edge_, out, is_past_face ? 1 / distance : 0};
-        }
+        if (distance == 0) return {-edge_, normalized(place_beside(half_width + 0.01 * half_) - foot), 0};
+        if (beside) return {distance - edge_, -to_foot / distance, is_past_face ? 1 / distance : 0};
         const double depth = half_ - std::abs(over);
-        if (depth <= distance || distance == 0) {
+        if (depth <= distance) {
             const double side = over >= 0 ? 1 : -1;
             return {-depth - edge_, side * axis_.outward(at), side / at.radius};
         }
