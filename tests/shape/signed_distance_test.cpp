@@ -155,5 +155,30 @@ TEST(SignedDistance, refusesOutlinesThatAreNone) {
     EXPECT_THROW(union_of_round_cones({{{}, {1, 0, 0}, 1, 0}}), GeometryError);
 }
 
+TEST(MadeWhenAsked, IsMadeOnceAndOnlyThen) {
+    int made = 0;
+    const SignedDistance later = made_when_asked(
+        [&] {
+            ++made;
+            return SignedDistance([](const Vec3& x) { return DistanceSample{norm(x) - 1, normalized(x), 2 / norm(x)}; }, {{-1, -1, -1}, {1, 1, 1}});
+        },
+        {{-1, -1, -1}, {1, 1, 1}});
+    const SignedDistance copy = later;
+    EXPECT_EQ(copy.bounds().high, (Vec3{1, 1, 1}));
+    EXPECT_EQ(made, 0);
+    double sum = 0;
+#pragma omp parallel for num_threads(4) reduction(+ : sum)
+    for (int k = 1; k <= 100; ++k) sum += copy.value({double(k), 0, 0});
+    EXPECT_DOUBLE_EQ(sum, 4950);
+    EXPECT_DOUBLE_EQ(later.value({0, 0.5, 0}), -0.5);
+    EXPECT_EQ(made, 1);
+}
+
+TEST(MadeWhenAsked, WhatGoesWrongComesWithTheQuestion) {
+    const SignedDistance never = made_when_asked([]() -> SignedDistance { throw GeometryError("open"); }, {});
+    EXPECT_THROW(never.value({0, 0, 0}), GeometryError);
+    EXPECT_THROW(never.value({0, 0, 0}), GeometryError);
+}
+
 }  // namespace
 }  // namespace patency

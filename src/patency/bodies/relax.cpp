@@ -368,6 +368,7 @@ RelaxQuality relax_points(std::span<Vec3> fluid, std::span<Vec3> wall, const Lum
 
 FittedPoints make_relaxed_points(const Lumen& lumen, double spacing, const PointsExtent& extent,
                                  RelaxQuality* quality) {
+    lumen.distance.value(lumen.bounds.low);   // one that is made when asked is made now, by all threads
     FittedPoints points = make_fitted_points(lumen, spacing, extent);
     const double root = lumen.planar ? std::sqrt(points.volume) : std::cbrt(points.volume);
     const std::size_t count = points.fluid.size();

@@ -120,7 +120,8 @@ Lumen make_network_lumen(const Network& network, double extension, double resolu
     Surface surface = closed_surface(field, cell);
     constexpr double voxels_outside =
         14;   // of the resolution: a wall for the kernels of particles twice as wide apart
-    SignedDistance distance = make_surface_distance(surface, resolution, voxels_outside * resolution);
+    SignedDistance distance = made_when_asked(
+        [surface, resolution] { return make_surface_distance(surface, resolution, voxels_outside * resolution); }, bounds(surface));
     cut_openings(surface, openings, cell, extension);
     const Surface wall = wall_of(surface);
     return {.distance = std::move(distance),

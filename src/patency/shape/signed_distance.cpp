@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 namespace patency {
 
@@ -46,6 +49,24 @@ Bounds moved(const Bounds& bounds, const RigidMotion& motion) {
     const auto [y0, y1] = interval(motion.rotation.y, motion.origin.y);
     const auto [z0, z1] = interval(motion.rotation.z, motion.origin.z);
     return {{x0, y0, z0}, {x1, y1, z1}};
+}
+
+SignedDistance made_when_asked(std::function<SignedDistance()> make, const Bounds& bounds) {
+    struct Later {
+        std::function<SignedDistance()> make;
+        std::once_flag once{};
+        std::optional<SignedDistance> distance{};
+    };
+    const auto later = std::make_shared<Later>();
+    later->make = std::move(make);
+    return {[later](const Vec3& x) {
+                std::call_once(later->once, [&] {
+                    later->distance = later->make();
+                    later->make = {};   // and what it holds
+                });
+                return later->distance->sample(x);
+            },
+            bounds};
 }
 
 double curvature_by_differences(const SignedDistance& distance, const Vec3& x, double step) {

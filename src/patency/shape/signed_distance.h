@@ -65,6 +65,10 @@ private:
     Bounds bounds_;
 };
 
+/// The distance that `make` makes, made when it is first asked: a lumen is measured and planned with long before particles
+/// need its distance. Ask once outside of parallel loops. What make throws comes with the first question.
+SignedDistance made_when_asked(std::function<SignedDistance()> make, const Bounds& bounds);
+
 /// The Laplacian of a distance [1/m] by central differences of its gradient over +-step [m], for samplers
 /// that have no formula; its error is O(step^2) where the distance is smooth.
 double curvature_by_differences(const SignedDistance& distance, const Vec3& x, double step);

@@ -168,7 +168,9 @@ Lumen make_surface_lumen(const CheckedSurface& checked, std::span<const SurfaceO
         own[k] = {first, std::uint32_t(surface.points.size())};
     }
     expect_room(surface, planes, own, openings, settings);
-    lumen.distance = make_surface_distance(surface, settings.voxel, settings.outside);
+    const Bounds box = bounds(surface);
+    lumen.distance = made_when_asked(
+        [closed = std::move(surface), settings] { return make_surface_distance(closed, settings.voxel, settings.outside); }, box);
     return lumen;
 }
 
