@@ -18,6 +18,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -160,31 +161,48 @@ CentrelineData centrelines_of(const SurfaceBytes& file, vtkPolyData& data) {
     return lines;
 }
 
-/// Whether a child process lives through `attempt`: VTK 9.1 reads beyond its arrays in some damaged files, whatever is
-/// checked before, and a crash must be a sentence.
+enum class Trial { passed, crashed, too_large };
+
+/// How a child process fares with `attempt`: VTK 9.1 reads beyond its arrays in some damaged files, whatever is checked
+/// before, and a crash must be a sentence. It has the time and the memory that a sound file of `size` bytes needs many
+/// times over: damaged counts ask for more.
 template <class Attempt>
-bool is_survived(Attempt attempt) {
-    constexpr unsigned longest = 120;   // s, for files of any size that a mesh has; VTK reads 100 MB/s
+Trial try_in_child(std::size_t size, Attempt attempt) {
+    const rlim_t seconds = 5 + size / 5'000'000;                     // VTK reads 100 MB/s
+    const rlim_t memory = (rlim_t(2) << 30) + 100 * rlim_t(size);    // of addresses: libraries and threads included
+    constexpr int out_of_memory = 3;
     const pid_t child = ::fork();
-    if (child < 0) return true;   // no process to be had: then without the trial
+    if (child < 0) return Trial::passed;   // no process to be had: then without the trial
     if (child == 0) {
-        ::alarm(longest);
+        const rlimit time_limit{seconds, seconds};
+        [[maybe_unused]] const rlimit memory_limit{memory, memory};
+        ::setrlimit(RLIMIT_CPU, &time_limit);
+#ifndef __SANITIZE_ADDRESS__   // whose map of the memory takes terabytes of addresses
+        ::setrlimit(RLIMIT_AS, &memory_limit);
+#endif
         try {
             attempt();
+        } catch (const std::bad_alloc&) {
+            ::_exit(out_of_memory);
         } catch (...) {   // what VTK says of it, the parent hears itself
         }
         ::_exit(0);
     }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-    return WIFEXITED(status);
+    if (!WIFEXITED(status)) return Trial::crashed;
+    return WEXITSTATUS(status) == out_of_memory ? Trial::too_large : Trial::passed;
 }
 
 /// `read` makes VTK read and returns its output; `convert` takes what is needed of it.
 template <class Read, class Convert>
 auto read_with_vtk(const SurfaceBytes& file, Read read, Convert convert) {
     const QuietVtk quiet;
-    if (!is_survived(read)) refuse_file(file, "it is damaged: VTK's reader crashes on it. Copy or export it again.");
+    const char* too_large = "its counts need more memory than there is: it is damaged. Copy or export it again.";
+    const Trial trial = try_in_child(file.bytes.size(), read);
+    if (trial == Trial::crashed)
+        refuse_file(file, "it is damaged: VTK's reader crashes on it or does not come to an end. Copy or export it again.");
+    if (trial == Trial::too_large) refuse_file(file, too_large);
     try {
         const vtkSmartPointer<vtkPolyData> data = read();
         if (!quiet.errors().empty() || !data)
@@ -192,7 +210,7 @@ auto read_with_vtk(const SurfaceBytes& file, Read read, Convert convert) {
                                           reason_of(quiet.errors())));
         return convert(file, *data);
     } catch (const std::bad_alloc&) {
-        refuse_file(file, "its counts need more memory than there is: it is damaged. Copy or export it again.");
+        refuse_file(file, too_large);
     }
 }
 
