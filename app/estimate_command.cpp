@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency estimate: flow split, pressures and FFR of a vessel as a tree of tubes, in a second. A table on the terminal; with
 // -o summary.json and a pullback per outlet.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,33 +32,39 @@ std::string shown_band(const std::optional<EstimateBand>& band, const Band* b, d
 }
 
 void print(const Vessel& vessel, const Estimate& e, const std::optional<EstimateBand>& band) {
-    fmt::print("Openings (flow out of the vessel):\n    {:<16} {:>11} {:>11} {:>14}\n", "name", "diameter mm", "flow mL/min", "pressure mmHg");
+    fmt::print("Openings (flow out of the vessel):\n    {:<16} {:>11} {:>11} {:>14}\n", "name", "diameter mm",
+               "flow mL/min", "pressure mmHg");
     for (std::size_t k = 0; k < vessel.openings.size(); ++k) {
         const Opening& o = vessel.openings[k].opening;
-        fmt::print("    {:<16} {:>11.3f} {:>11.2f} {:>14.3f}{}\n", o.name, 2e3 * o.radius, e.opening_flows[k] / mL_per_min,
-                   e.opening_pressures[k] / mmHg, shown_band(band, band ? &band->opening_flows[k] : nullptr, mL_per_min, 1));
+        fmt::print("    {:<16} {:>11.3f} {:>11.2f} {:>14.3f}{}\n", o.name, 2e3 * o.radius,
+                   e.opening_flows[k] / mL_per_min, e.opening_pressures[k] / mmHg,
+                   shown_band(band, band ? &band->opening_flows[k] : nullptr, mL_per_min, 1));
     }
-    fmt::print("Branches:\n    {:<20} {:>11} {:>10} {:>12} {:>8}\n", "name", "flow mL/min", "drop mmHg", "end mmHg", "FFR");
+    fmt::print("Branches:\n    {:<20} {:>11} {:>10} {:>12} {:>8}\n", "name", "flow mL/min", "drop mmHg", "end mmHg",
+               "FFR");
     for (std::size_t b = 0; b < e.tree.branches.size(); ++b) {
         const auto& p = e.flow.pressure[b];
         const auto ffr = e.ffr(b, p.size() - 1);
-        fmt::print("    {:<20} {:>11.2f} {:>10.3f} {:>12.3f} {:>8}\n", e.tree.branches[b].name, e.flow.flow[b] / mL_per_min,
-                   (p.front() - p.back()) / mmHg, p.back() / mmHg, ffr ? fmt::format("{:.3f}", *ffr) : "-");
+        fmt::print("    {:<20} {:>11.2f} {:>10.3f} {:>12.3f} {:>8}\n", e.tree.branches[b].name,
+                   e.flow.flow[b] / mL_per_min, (p.front() - p.back()) / mmHg, p.back() / mmHg,
+                   ffr ? fmt::format("{:.3f}", *ffr) : "-");
     }
     fmt::print("Lesions: {}\n", e.lesions.empty() ? "none" : "");
     for (std::size_t k = 0; k < e.lesions.size(); ++k) {
         const EstimatedLesion& l = e.lesions[k];
         const Lesion& lesion = vessel.along->assessment.lesions[l.number];
-        fmt::print("  L{} in {} at {:.2f} mm: {:.1f} % of the diameter, {:.2f} mL/min, drop {:.3f} mmHg\n", l.number + 1,
-                   vessel.along->lines.branches[lesion.branch].name, 1e3 * lesion.throat_arc, 100 * lesion.diameter_stenosis,
-                   l.flow / mL_per_min, l.drop / mmHg);
+        fmt::print("  L{} in {} at {:.2f} mm: {:.1f} % of the diameter, {:.2f} mL/min, drop {:.3f} mmHg\n",
+                   l.number + 1, vessel.along->lines.branches[lesion.branch].name, 1e3 * lesion.throat_arc,
+                   100 * lesion.diameter_stenosis, l.flow / mL_per_min, l.drop / mmHg);
         if (l.ffr)
-            fmt::print("     FFR {:.3f}{} at {:.1f} mm\n", *l.ffr, shown_band(band, band ? &band->lesion_ffr[k] : nullptr, 1, 3), 1e3 * l.read_arc);
+            fmt::print("     FFR {:.3f}{} at {:.1f} mm\n", *l.ffr,
+                       shown_band(band, band ? &band->lesion_ffr[k] : nullptr, 1, 3), 1e3 * l.read_arc);
     }
     if (!e.aortic_pressure) fmt::print("No FFR: the deck gives no aortic pressure (aorta.pressure).\n");
 }
 
-void write(const EstimateOptions& o, const deck::Case& config, const Vessel& vessel, const Estimate& e, const std::optional<EstimateBand>& band) {
+void write(const EstimateOptions& o, const deck::Case& config, const Vessel& vessel, const Estimate& e,
+           const std::optional<EstimateBand>& band) {
     const OutputFolder folder(o.out);
     folder.clear();
     write_summary(folder.file("summary.json"), estimate_summary(config, vessel, e, band));
@@ -78,15 +84,17 @@ void estimate(const EstimateOptions& o) {
     if (!o.out.empty()) write(o, config, vessel, e, band);
 }
 
-}  // namespace
+}   // namespace
 
 void add_estimate_command(CLI::App& program, ExitCode&) {
-    CLI::App* command = program.add_subcommand("estimate", "flows, pressures and FFR of a vessel as a tree of tubes, in a second");
+    CLI::App* command =
+        program.add_subcommand("estimate", "flows, pressures and FFR of a vessel as a tree of tubes, in a second");
     const auto options = std::make_shared<EstimateOptions>();
     options->deck.add_to(*command);
     command->add_option("-o,--out", options->out, "Folder of the results");
-    command->add_flag("--vary", options->vary, "Bands for a tenth more or less flow, a tenth of a millimetre of diameter, another split");
+    command->add_flag("--vary", options->vary,
+                      "Bands for a tenth more or less flow, a tenth of a millimetre of diameter, another split");
     command->callback([options] { estimate(*options); });
 }
 
-}  // namespace patency::app
+}   // namespace patency::app

@@ -59,4 +59,4 @@ struct PoiseuilleTube {
     double wall_stress(double viscosity) const { return 4 * viscosity * mean_speed / radius; }   // Pa
 };
 
-}  // namespace patency::testing_analysis
+}   // namespace patency::testing_analysis

@@ -37,7 +37,8 @@ TEST(SectionGrid, CutAtAnAngleIsAnEllipse) {
 
 TEST(SectionGrid, AlongTheVesselIsNotClosed) {
     const PoiseuilleTube tube;
-    const SectionGrid grid = make_section_grid({tube.motion.place({4e-3, 0, 0}), tube.motion.turn({0, 1, 0}), tube.radius}, tube.wall);
+    const SectionGrid grid =
+        make_section_grid({tube.motion.place({4e-3, 0, 0}), tube.motion.turn({0, 1, 0}), tube.radius}, tube.wall);
     EXPECT_FALSE(grid.closed);
 }
 
@@ -51,7 +52,8 @@ TEST(SectionGrid, DoesNotSeeAnotherVesselInItsPlane) {
 TEST(SectionFlow, OfAParabola) {
     const PoiseuilleTube tube;
     std::vector<SectionGrid> grids;
-    for (double axial : {3e-3, 6e-3}) grids.push_back(make_section_grid({tube.motion.place({axial, 0, 0}), tube.axis(), tube.radius}, tube.wall));
+    for (double axial : {3e-3, 6e-3})
+        grids.push_back(make_section_grid({tube.motion.place({axial, 0, 0}), tube.axis(), tube.radius}, tube.wall));
     const auto flows = flow_through_sections(tube.fluid, *tube.frame, grids, tube.reach(), tube.wall);
     const double area = pi * tube.radius * tube.radius;
     ASSERT_EQ(flows.size(), 2u);
@@ -66,9 +68,10 @@ TEST(SectionFlow, OfAParabola) {
 
 TEST(SectionFlow, AgainstTheNormalIsNegative) {
     const PoiseuilleTube tube;
-    const std::vector<SectionGrid> grid{make_section_grid({tube.motion.place({4e-3, 0, 0}), -1.0 * tube.axis(), tube.radius}, tube.wall)};
+    const std::vector<SectionGrid> grid{
+        make_section_grid({tube.motion.place({4e-3, 0, 0}), -1.0 * tube.axis(), tube.radius}, tube.wall)};
     EXPECT_LT(flow_through_sections(tube.fluid, *tube.frame, grid, tube.reach(), tube.wall)[0].flow, 0);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -27,7 +27,8 @@ WallPlaces places_around(const PoiseuilleTube& tube, double axial, int count) {
 TEST(WallShear, OfAParabolaIsPoiseuilles) {
     const PoiseuilleTube tube;
     const WallPlaces places = places_around(tube, 4.5e-3, 24);
-    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
+    const auto stress =
+        wall_shear_stress(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
     const double exact = tube.wall_stress(3.5e-3);
     for (std::size_t k = 0; k < stress.size(); ++k) {
         EXPECT_NEAR(dot(stress[k], tube.axis()) / exact, 1, 0.01) << k;   // with the stream
@@ -53,7 +54,8 @@ TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {
 
 TEST(WallShear, WithoutBloodNearbyThereIsNone) {
     const PoiseuilleTube tube;
-    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(), tube.wall, [](double) { return 1.0; });
+    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(),
+                                          tube.wall, [](double) { return 1.0; });
     for (const Vec3& s : stress) EXPECT_TRUE(std::isnan(s.x));
 }
 
@@ -79,5 +81,5 @@ TEST(WallShearMeans, OfAStressThatTurnsRound) {
     EXPECT_EQ(uneven.mean()[0], (Vec3{1, 0, 0}));
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

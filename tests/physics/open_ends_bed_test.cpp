@@ -32,5 +32,5 @@ TEST(Bed, WithoutADrivingPressureThereIsNoAnswer) {
     EXPECT_THROW(bed_resistances({3e-3}, {600, 666, 4e-6, 3}), DeckError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

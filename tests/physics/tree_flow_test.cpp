@@ -49,8 +49,8 @@ TEST(TreeFlow, ATubeHasThePressureDropOfPoiseuille) {
 
 TEST(TreeFlow, AFlatProfileCostsTheExcessOfAnEntrance) {
     EXPECT_EQ(entrance_excess(0), 0);
-    EXPECT_NEAR(entrance_excess(1000), 1.25, 1e-4);           // developed
-    EXPECT_NEAR(entrance_excess(1e-6), 4 * 3.44e-3, 2e-4);    // a boundary layer: 13.76 sqrt(x)
+    EXPECT_NEAR(entrance_excess(1000), 1.25, 1e-4);          // developed
+    EXPECT_NEAR(entrance_excess(1e-6), 4 * 3.44e-3, 2e-4);   // a boundary layer: 13.76 sqrt(x)
     for (double x = 1e-5; x < 1; x *= 1.3) EXPECT_GT(entrance_excess(1.3 * x), entrance_excess(x));
     TreeCase tree{{tube(-1, 50, 3e-3, 3e-3)}, blood, TreeFlowRate{1e-6}, {TreePressure{0}}, 1};
     const double flat = solve_tree(tree).inlet_pressure;
@@ -125,7 +125,11 @@ TEST(TreeFlow, SizesDoNotMatterForLikeFlows) {   // the same Reynolds number at 
 }
 
 TEST(TreeFlow, ATurnCostsAndStraightOnAtTheSameSpeedDoesNot) {
-    TreeCase tree{{tube(-1, 0.01, 3e-3, 3e-3), tube(0, 0.01, 3e-3, 3e-3)}, blood, TreeFlowRate{2e-6}, {TreePressure{0}, TreePressure{0}}, 0};
+    TreeCase tree{{tube(-1, 0.01, 3e-3, 3e-3), tube(0, 0.01, 3e-3, 3e-3)},
+                  blood,
+                  TreeFlowRate{2e-6},
+                  {TreePressure{0}, TreePressure{0}},
+                  0};
     const double straight = solve_tree(tree).inlet_pressure;
     TreeCase one{{tube(-1, 0.01, 3e-3, 3e-3)}, blood, TreeFlowRate{2e-6}, {TreePressure{0}}, 0};
     const double first = solve_tree(one).inlet_pressure;
@@ -150,7 +154,8 @@ TEST(TreeFlow, WhatCannotBeSolvedIsSaid) {
 
 /// The paper's bifurcation, whose finite-volume solution stands beside the project: areas along its branches, in and out.
 TEST(TreeFlow, TheReferenceBifurcationIsEstimated) {
-    std::ifstream file(std::string(PATENCY_SOURCE_DIR) + "/../shared/reference/coronary_bifurcation/finite_volume_before.json");
+    std::ifstream file(std::string(PATENCY_SOURCE_DIR) +
+                       "/../shared/reference/coronary_bifurcation/finite_volume_before.json");
     if (!file) GTEST_SKIP() << "../shared is not here";
     const auto reference = nlohmann::json::parse(file);
     TreeCase tree;
@@ -176,7 +181,8 @@ TEST(TreeFlow, TheReferenceBifurcationIsEstimated) {
     add("small_branch", 2, 30, 40);
     const auto& outlets = reference["outlets"];
     tree.outlets = {TreePressure{0}, TreePressure{0}, TreePressure{0},
-                    TreeResistance{outlets["medium"]["resistance_pa_s_per_m3"]}, TreeResistance{outlets["small"]["resistance_pa_s_per_m3"]}};
+                    TreeResistance{outlets["medium"]["resistance_pa_s_per_m3"]},
+                    TreeResistance{outlets["small"]["resistance_pa_s_per_m3"]}};
     const TreeFlow answer = solve_tree(tree);
     const auto& fv = reference["openings"];
     const auto expect_flow = [&](const char* name, std::size_t branch) {

@@ -16,7 +16,8 @@ Opening disc(const std::string& name, double diameter) {
     opening.name = name, opening.radius = diameter / 2, opening.area = std::numbers::pi * diameter * diameter / 4;
     return opening;
 }
-const std::vector<Opening> y{disc("inlet", 4e-3), disc("outlet_1", 3e-3), disc("outlet_2", 2e-3), disc("outlet_3", 2e-3)};
+const std::vector<Opening> y{disc("inlet", 4e-3), disc("outlet_1", 3e-3), disc("outlet_2", 2e-3),
+                             disc("outlet_3", 2e-3)};
 
 deck::Case deck_with(const std::string& bed) {
     deck::Case config;
@@ -47,7 +48,8 @@ TEST(TuneOutlets, TheStateTellsTheFlowThroughTheInlet) {
     tune_outlets(widened, y), tune_outlets(resting, y);
     const double total = (12000 - 600) / widened.openings.at("outlet_1").resistance.value() * (1 + 1 / 3.375);
     EXPECT_NEAR(total / y[0].area, 0.279, 1e-9);
-    EXPECT_NEAR(resting.openings.at("outlet_1").resistance.value() / widened.openings.at("outlet_1").resistance.value(), 0.279 / 0.123, 1e-9);
+    EXPECT_NEAR(resting.openings.at("outlet_1").resistance.value() / widened.openings.at("outlet_1").resistance.value(),
+                0.279 / 0.123, 1e-9);
 }
 
 TEST(TuneOutlets, WithoutAnInletTheFlowMustBeGiven) {
@@ -55,5 +57,5 @@ TEST(TuneOutlets, WithoutAnInletTheFlowMustBeGiven) {
     EXPECT_THROW(tune_outlets(config, {y[1], y[2]}), DeckError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -122,5 +122,5 @@ TEST(Estimate, ItsNumbersStandInTheSummaryAndThePullbacks) {
     }
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -17,7 +17,7 @@ double share_inside(double distance, double side) { return std::clamp(0.5 - dist
 
 Vec3 in_plane(const Vec3& v, const Vec3& normal) { return v - dot(v, normal) * normal; }
 
-}  // namespace
+}   // namespace
 
 double SectionGrid::total_area() const {
     double sum = 0;
@@ -31,7 +31,9 @@ SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, i
     const Vec3 a = normalized(cross(n, other)), b = cross(n, a);
     const double side = plane.radius / across;
     const int half = farthest_radii * across, width = 2 * half + 1;
-    const auto place = [&](int i, int j) { return plane.centre + side * (double(i - half) * a + double(j - half) * b); };
+    const auto place = [&](int i, int j) {
+        return plane.centre + side * (double(i - half) * a + double(j - half) * b);
+    };
 
     SectionGrid grid;
     grid.normal = n;
@@ -59,8 +61,9 @@ SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, i
     return grid;
 }
 
-std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame, std::span<const SectionGrid> sections,
-                                               double reach, const WallHint& wall) {
+std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame,
+                                               std::span<const SectionGrid> sections, double reach,
+                                               const WallHint& wall) {
     std::vector<Vec3> places;
     for (const SectionGrid& s : sections) places.insert(places.end(), s.place.begin(), s.place.end());
     const auto samples = sample_flow(fluid, frame, places, reach, false, &wall);
@@ -88,4 +91,4 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
     return result;
 }
 
-}  // namespace patency
+}   // namespace patency

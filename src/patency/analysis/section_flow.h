@@ -11,18 +11,18 @@ namespace patency {
 
 /// A plane across a vessel.
 struct SectionPlane {
-    Vec3 centre;    ///< inside the lumen [m]
-    Vec3 normal;    ///< unit, along the stream
-    double radius;  ///< of the largest circle around the centre inside the lumen, about [m]
+    Vec3 centre;     ///< inside the lumen [m]
+    Vec3 normal;     ///< unit, along the stream
+    double radius;   ///< of the largest circle around the centre inside the lumen, about [m]
 };
 
 /// The part of a plane that is lumen and joined to the centre, as small squares; those across the wall are cut by it.
 struct SectionGrid {
-    std::vector<Vec3> place;        ///< middles of the squares' parts in the lumen [m]
-    std::vector<double> area;       ///< of their part in the lumen [m^2]
+    std::vector<Vec3> place;    ///< middles of the squares' parts in the lumen [m]
+    std::vector<double> area;   ///< of their part in the lumen [m^2]
     Vec3 normal;
-    bool closed = true;             ///< false: it runs into open space (a side branch cut along), farther than 4 radii
-    double total_area() const;      ///< [m^2]
+    bool closed = true;          ///< false: it runs into open space (a side branch cut along), farther than 4 radii
+    double total_area() const;   ///< [m^2]
 };
 /// Squares of `across` to the radius.
 SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, int across = 8);
@@ -36,7 +36,8 @@ struct SectionFlow {
 };
 /// What goes through each section now. Squares without a particle within `reach` [m] take no part in the means: if
 /// there are only such, flow and pressure are NaN.
-std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame, std::span<const SectionGrid> sections,
-                                               double reach, const WallHint& wall);
+std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame,
+                                               std::span<const SectionGrid> sections, double reach,
+                                               const WallHint& wall);
 
-}  // namespace patency
+}   // namespace patency

@@ -7,8 +7,9 @@
 
 namespace patency {
 
-std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places, double reach,
-                                    const WallHint& wall, const std::function<double(double)>& viscosity_at) {
+std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
+                                    double reach, const WallHint& wall,
+                                    const std::function<double(double)>& viscosity_at) {
     const auto samples = sample_flow(fluid, frame, places.position, reach, false, &wall);
     std::vector<Vec3> stress(samples.size());
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -49,7 +50,8 @@ std::vector<double> WallShearMeans::tawss() const {
 std::vector<double> WallShearMeans::osi() const {
     std::vector<double> result;
     for (std::size_t k = 0; k < vector_.size(); ++k)
-        result.push_back(magnitude_[k] == 0 ? 0 : 0.5 * (1 - norm(vector_[k]) / magnitude_[k]));   // no stress, no oscillation
+        result.push_back(
+            magnitude_[k] == 0 ? 0 : 0.5 * (1 - norm(vector_[k]) / magnitude_[k]));   // no stress, no oscillation
     return result;
 }
 
@@ -59,4 +61,4 @@ std::vector<double> WallShearMeans::rrt() const {   // (1 - 2 OSI) TAWSS is the 
     return result;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -19,8 +19,9 @@ struct WallPlaces {
 /// The force of the blood along the wall, per area [Pa], at every place: the viscosity at the shear rate there, times the
 /// velocity gradient fitted one-sidedly to the blood and to the wall's own velocity. It points where the blood goes. NaN
 /// where no blood is within `reach` [m]. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
-std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places, double reach,
-                                    const WallHint& wall, const std::function<double(double)>& viscosity_at);
+std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
+                                    double reach, const WallHint& wall,
+                                    const std::function<double(double)>& viscosity_at);
 
 /// Means over time of a wall shear stress. Places where any stress was NaN stay NaN.
 class WallShearMeans {
@@ -35,9 +36,9 @@ public:
     std::vector<double> rrt() const;            ///< relative residence time [1/Pa]                    THEORY.md (13.10)
 
 private:
-    std::vector<Vec3> vector_;        // integrals over time
+    std::vector<Vec3> vector_;   // integrals over time
     std::vector<double> magnitude_;
     double time_ = 0;
 };
 
-}  // namespace patency
+}   // namespace patency

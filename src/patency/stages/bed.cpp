@@ -28,8 +28,8 @@ void tune_outlets(deck::Case& config, const std::vector<Opening>& openings) {
     const deck::Bed& bed = config.bed;
     const double flow = bed.flow.value_or(flow_of_bed(bed.state, inlet_area));
     if (!(flow > 0)) throw DeckError("bed.flow: is needed where no opening but tuned outlets lets blood in");
-    const auto resistances = bed_resistances(
-        diameters, {config.aorta.pressure.value(), bed.venous_pressure, flow, bed.murray_exponent});
+    const auto resistances =
+        bed_resistances(diameters, {config.aorta.pressure.value(), bed.venous_pressure, flow, bed.murray_exponent});
     for (std::size_t k = 0; k < outlets.size(); ++k) {
         outlets[k]->resistance = resistances[k];
         outlets[k]->distal_pressure = bed.venous_pressure;

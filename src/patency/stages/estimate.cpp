@@ -50,13 +50,15 @@ std::vector<TreeBranch> branches_of(const VesselAlong& along, const EstimateChan
         branches.push_back(std::move(branch));
     }
     for (const Lesion& lesion : along.assessment.lesions)
-        branches[lesion.branch].lesions.push_back({lesion.throat_arc, lesion.end_arc, changed(lesion.minimum_area, change.diameter),
+        branches[lesion.branch].lesions.push_back({lesion.throat_arc, lesion.end_arc,
+                                                   changed(lesion.minimum_area, change.diameter),
                                                    changed(lesion.interpolated.area, change.diameter)});
     return branches;
 }
 
 /// What holds at an opening, steady. Flows along the stream: out of an outlet, into the inlet.
-TreeEnd end_of(const Opening& opening, const deck::Opening& said, const deck::Case& config, bool is_inlet, double flow_factor) {
+TreeEnd end_of(const Opening& opening, const deck::Opening& said, const deck::Case& config, bool is_inlet,
+               double flow_factor) {
     const EndLaw law = make_end_law(opening, said, config);
     if (law.prescribes_flow()) return TreeFlowRate{(is_inlet ? 1 : -1) * flow_factor * law.signal.waveform.mean()};
     if (!law.outlet) return TreePressure{law.signal.waveform.mean()};
@@ -70,10 +72,12 @@ void expect_same_openings(const deck::Case& config, const std::vector<SurfaceOpe
     for (const SurfaceOpening& o : openings) {
         names += (names.empty() ? "" : ", ") + o.opening.name;
         if (!config.openings.contains(o.opening.name))
-            throw DeckError(fmt::format("openings.{} is missing: the surface has an opening of {:.2f} mm there", o.opening.name, 2e3 * o.opening.radius));
+            throw DeckError(fmt::format("openings.{} is missing: the surface has an opening of {:.2f} mm there",
+                                        o.opening.name, 2e3 * o.opening.radius));
     }
     for (const auto& [name, said] : config.openings)
-        if (std::none_of(openings.begin(), openings.end(), [&](const SurfaceOpening& o) { return o.opening.name == name; }))
+        if (std::none_of(openings.begin(), openings.end(),
+                         [&](const SurfaceOpening& o) { return o.opening.name == name; }))
             throw DeckError(fmt::format("openings.{}: the surface has no such opening; it has {}", name, names));
 }
 
@@ -96,9 +100,11 @@ EstimatedLesion read_lesion(const Estimate& e, const VesselAlong& along, std::si
     const Lesion& lesion = along.assessment.lesions[number];
     const double read_arc = std::min(lesion.end_arc + distance_to_reading, along.lines.lines[lesion.line].length());
     const auto& tree = e.tree.branches;
-    const std::size_t before = branch_at(along, tree, lesion.line, lesion.start_arc), after = branch_at(along, tree, lesion.line, read_arc);
+    const std::size_t before = branch_at(along, tree, lesion.line, lesion.start_arc),
+                      after = branch_at(along, tree, lesion.line, read_arc);
     const std::size_t station = station_at(tree[after], read_arc);
-    const double drop = e.flow.pressure[before][station_at(tree[before], lesion.start_arc)] - e.flow.pressure[after][station];
+    const double drop =
+        e.flow.pressure[before][station_at(tree[before], lesion.start_arc)] - e.flow.pressure[after][station];
     return {number, e.flow.flow[lesion.branch], drop, read_arc, e.ffr(after, station)};
 }
 
@@ -124,7 +130,8 @@ Estimate estimate_flow(const deck::Case& given, const Vessel& vessel, const Esti
     e.tree.branches = branches_of(*vessel.along, change);
     const FluidMaterial material = make_material(config.blood);
     e.tree.blood.density = material.density;
-    e.tree.blood.viscosity_at = material.viscosity_at ? material.viscosity_at : [mu = material.viscosity](double) { return mu; };
+    e.tree.blood.viscosity_at =
+        material.viscosity_at ? material.viscosity_at : [mu = material.viscosity](double) { return mu; };
     const deck::Opening& inlet = config.openings.at(openings[0].name);
     e.tree.inlet = end_of(openings[0], inlet, config, true, change.flow);
     e.tree.inlet_entrance = inlet.profile == deck::VelocityProfile::plug ? 1 : 0;
@@ -133,8 +140,10 @@ Estimate estimate_flow(const deck::Case& given, const Vessel& vessel, const Esti
     for (std::size_t b = 0; b < vessel.along->lines.branches.size(); ++b) {
         const Branch& branch = vessel.along->lines.branches[b];
         const Centreline& line = vessel.along->lines.lines[branch.line];
-        if (branch.lines.size() > 1 || branch.last + 1 != line.points.size()) continue;   // goes on behind a bifurcation
-        const auto at = std::find_if(openings.begin(), openings.end(), [&](const Opening& o) { return o.name == line.outlet; });
+        if (branch.lines.size() > 1 || branch.last + 1 != line.points.size())
+            continue;   // goes on behind a bifurcation
+        const auto at =
+            std::find_if(openings.begin(), openings.end(), [&](const Opening& o) { return o.name == line.outlet; });
         e.tree.outlets[b] = end_of(*at, config.openings.at(at->name), config, false, change.flow);
         branch_of_opening[std::size_t(at - openings.begin())] = b;
     }
@@ -150,7 +159,8 @@ Estimate estimate_flow(const deck::Case& given, const Vessel& vessel, const Esti
         e.aortic_pressure = *config.aorta.pressure;
         e.level = *config.aorta.pressure - e.flow.inlet_pressure;
     }
-    for (std::size_t n = 0; n < vessel.along->assessment.lesions.size(); ++n) e.lesions.push_back(read_lesion(e, *vessel.along, n));
+    for (std::size_t n = 0; n < vessel.along->assessment.lesions.size(); ++n)
+        e.lesions.push_back(read_lesion(e, *vessel.along, n));
     return e;
 }
 
@@ -166,7 +176,8 @@ EstimateBand estimate_band(const deck::Case& config, const Vessel& vessel) {
                 const Estimate e = estimate_flow(config, vessel, {flow, diameter, exponent});
                 for (std::size_t k = 0; k < e.lesions.size(); ++k)
                     if (e.lesions[k].ffr) widen(band.lesion_ffr, k, *e.lesions[k].ffr);
-                for (std::size_t k = 0; k < e.opening_flows.size(); ++k) widen(band.opening_flows, k, e.opening_flows[k]);
+                for (std::size_t k = 0; k < e.opening_flows.size(); ++k)
+                    widen(band.opening_flows, k, e.opening_flows[k]);
             }
     return band;
 }

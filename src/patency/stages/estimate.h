@@ -20,22 +20,22 @@ struct EstimateChange {
 
 /// A lesion and what it does.
 struct EstimatedLesion {
-    std::size_t number;            ///< in Assessment::lesions
-    double flow;                   ///< [m^3/s]
-    double drop;                   ///< of the mean pressure from its start to where FFR is read [Pa]
-    double read_arc;               ///< along its line: 15 mm behind its end, or at the vessel's [m]
-    std::optional<double> ffr;     ///< there; none without an aortic pressure
+    std::size_t number;          ///< in Assessment::lesions
+    double flow;                 ///< [m^3/s]
+    double drop;                 ///< of the mean pressure from its start to where FFR is read [Pa]
+    double read_arc;             ///< along its line: 15 mm behind its end, or at the vessel's [m]
+    std::optional<double> ffr;   ///< there; none without an aortic pressure
 };
 
 struct Estimate {
-    TreeCase tree;                                ///< branches as the vessel's
+    TreeCase tree;   ///< branches as the vessel's
     TreeFlow flow;
-    std::vector<double> opening_flows;            ///< out of the domain, as the vessel's openings [m^3/s]
-    std::vector<double> opening_pressures;        ///< [Pa], the deck's datum
-    std::vector<deck::Opening> outlets;           ///< as the openings, resistances tuned
+    std::vector<double> opening_flows;       ///< out of the domain, as the vessel's openings [m^3/s]
+    std::vector<double> opening_pressures;   ///< [Pa], the deck's datum
+    std::vector<deck::Opening> outlets;      ///< as the openings, resistances tuned
     std::vector<EstimatedLesion> lesions;
-    double level = 0;                             ///< added to pressures for FFR: aortic less the inlet's [Pa]
-    std::optional<double> aortic_pressure;        ///< [Pa]
+    double level = 0;                        ///< added to pressures for FFR: aortic less the inlet's [Pa]
+    std::optional<double> aortic_pressure;   ///< [Pa]
 
     /// Pressure over the aortic one at a station; none without an aortic pressure.
     std::optional<double> ffr(std::size_t branch, std::size_t station) const;

@@ -27,7 +27,8 @@ Json opening_summary(const Estimate& e, std::size_t k, const std::optional<Estim
     return opening;
 }
 
-Json lesion_summary(const VesselAlong& along, const Estimate& e, std::size_t k, const std::optional<EstimateBand>& band) {
+Json lesion_summary(const VesselAlong& along, const Estimate& e, std::size_t k,
+                    const std::optional<EstimateBand>& band) {
     const EstimatedLesion& l = e.lesions[k];
     const Lesion& lesion = along.assessment.lesions[l.number];
     Json result{{"branch", along.lines.branches[lesion.branch].name},
@@ -44,9 +45,12 @@ Json lesion_summary(const VesselAlong& along, const Estimate& e, std::size_t k, 
 
 }   // namespace
 
-Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Estimate& e, const std::optional<EstimateBand>& band) {
+Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Estimate& e,
+                      const std::optional<EstimateBand>& band) {
     const VesselAlong& along = vessel.along.value();
-    Json summary{{"name", config.about.name}, {"method", "estimate"}, {"pressure_datum", e.aortic_pressure ? "absolute" : "gauge"}};
+    Json summary{{"name", config.about.name},
+                 {"method", "estimate"},
+                 {"pressure_datum", e.aortic_pressure ? "absolute" : "gauge"}};
     Json openings = Json::object(), branches = Json::array(), lesions = Json::array();
     for (std::size_t k = 0; k < vessel.openings.size(); ++k)
         openings[vessel.openings[k].opening.name] = opening_summary(e, k, band, vessel.openings[k].opening.area);
@@ -66,7 +70,8 @@ Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Esti
     summary["branches"] = branches;
     summary["lesions"] = lesions;
     summary["ffr"] = {{"lesion", or_null(worst)}};
-    if (!worst) summary["ffr"]["reason"] = e.aortic_pressure ? "no lesion was found" : "the deck gives no aortic pressure";
+    if (!worst)
+        summary["ffr"]["reason"] = e.aortic_pressure ? "no lesion was found" : "the deck gives no aortic pressure";
     return summary;
 }
 

@@ -14,7 +14,8 @@ namespace patency {
 Vessel check_vessel(Surface surface, std::string_view inlet) {
     Vessel vessel{.triangles_read = surface.triangles.size(), .checked = check_surface(std::move(surface))};
     vessel.openings = find_openings(vessel.checked);
-    for (Finding& finding : find_missing_openings(vessel.openings)) vessel.checked.findings.push_back(std::move(finding));
+    for (Finding& finding : find_missing_openings(vessel.openings))
+        vessel.checked.findings.push_back(std::move(finding));
     if (!inlet.empty()) choose_inlet(vessel.openings, inlet);
     return vessel;
 }
@@ -49,7 +50,8 @@ void follow_vessel(Vessel& vessel) {
 
 Vessel read_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
-    if (!g.surface && !g.network) throw DeckError("geometry: a surface or a network is needed; a shape has no branches to follow");
+    if (!g.surface && !g.network)
+        throw DeckError("geometry: a surface or a network is needed; a shape has no branches to follow");
     Vessel vessel = g.network ? check_vessel(read_network_of(config))
                               : check_vessel(read_surface(*g.surface, g.unit.value_or(""), g.space.value_or("")));
     follow_vessel(vessel);

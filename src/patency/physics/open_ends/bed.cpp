@@ -19,7 +19,8 @@ std::vector<double> bed_resistances(const std::vector<double>& diameters, const 
     const double driving = demand.aortic_pressure - demand.venous_pressure;
     if (!(driving > 0)) throw DeckError("bed.venous_pressure: is not below aorta.pressure, so nothing drives the flow");
     std::vector<double> resistances;
-    for (double share : murray_shares(diameters, demand.murray_exponent)) resistances.push_back(driving / (share * demand.flow));
+    for (double share : murray_shares(diameters, demand.murray_exponent))
+        resistances.push_back(driving / (share * demand.flow));
     return resistances;
 }
 

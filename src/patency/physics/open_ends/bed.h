@@ -13,7 +13,7 @@ std::vector<double> murray_shares(const std::vector<double>& diameters, double e
 
 struct BedDemand {
     double aortic_pressure, venous_pressure;   ///< mean [Pa]
-    double flow;                               ///< of all outlets together, in a vessel without a loss of its own [m^3/s]
+    double flow;   ///< of all outlets together, in a vessel without a loss of its own [m^3/s]
     double murray_exponent;
 };
 /// The resistance behind each outlet [Pa s/m^3]: the pressure from the aorta to the veins over the outlet's share of the flow.

@@ -64,7 +64,7 @@ double dynamic_pressure(double density, double speed) { return 0.5 * density * s
 double junction_loss(double density, double parent_speed, double speed, double turn) {
     if (parent_speed == 0) return 0;
     const double ratio = speed / parent_speed;
-    const double share = 1 + ratio * ratio - 2 * ratio * std::cos(0.75 * turn);                       // THEORY.md (15.4)
+    const double share = 1 + ratio * ratio - 2 * ratio * std::cos(0.75 * turn);   // THEORY.md (15.4)
     return share * dynamic_pressure(density, parent_speed);
 }
 
@@ -75,7 +75,7 @@ std::vector<double> branch_losses(const TreeCase& tree, const TreeBranch& branch
     const auto viscosity = [&](double area) {
         return tree.blood.viscosity_at(8 * std::abs(flow) / (area * diameter(area)));   // at the wall of a parabola
     };
-    const auto friction = [&](std::size_t k) {                                                        // THEORY.md (15.1)
+    const auto friction = [&](std::size_t k) {   // THEORY.md (15.1)
         return 8 * pi * viscosity(branch.area[k]) * flow / (branch.area[k] * branch.area[k]);
     };
     const double begin = branch.area.front(), speed = flow / begin;
@@ -87,7 +87,7 @@ std::vector<double> branch_losses(const TreeCase& tree, const TreeBranch& branch
         if (reynolds > 0)
             loss[k] += entrance * dynamic_pressure(density, speed) *
                        entrance_excess((arc - branch.arc.front()) / (diameter(begin) * reynolds));
-        for (const TreeLesion& lesion : branch.lesions) {                                             // THEORY.md (15.3)
+        for (const TreeLesion& lesion : branch.lesions) {   // THEORY.md (15.3)
             const double widening = std::max(lesion.end_arc - lesion.throat_arc, 1e-12);
             const double reached = std::clamp((arc - lesion.throat_arc) / widening, 0.0, 1.0);
             const double jet = std::max(0.0, lesion.reference_area / lesion.throat_area - 1);
@@ -127,7 +127,8 @@ std::vector<std::vector<double>> tree_pressures(const TreeCase& tree, const std:
             const double parent_speed = flows[p] / tree.branches[p].area.back();
             total = total_at_end[p] - junction_loss(density, parent_speed, speed, branch.turn);
         }
-        const auto loss = branch_losses(tree, branch, flows[b], branch.parent < 0 ? tree.inlet_entrance : branch_entrance);
+        const auto loss =
+            branch_losses(tree, branch, flows[b], branch.parent < 0 ? tree.inlet_entrance : branch_entrance);
         for (std::size_t k = 0; k < loss.size(); ++k)
             pressure[b].push_back(total - loss[k] - dynamic_pressure(density, flows[b] / branch.area[k]));
         total_at_end[b] = total - loss.back();
@@ -147,7 +148,8 @@ TreeFlow solve_tree(const TreeCase& tree) {
         diameters.push_back(diameter(tree.branches[leaf].area.back()));
         if (!std::holds_alternative<TreeFlowRate>(tree.outlets[leaf])) is_level_open = false;
     }
-    if (is_level_open) throw DeckError("all openings impose a flow, so nothing tells the pressure; give one of them a pressure");
+    if (is_level_open)
+        throw DeckError("all openings impose a flow, so nothing tells the pressure; give one of them a pressure");
 
     // Unknown: the leaves' flows and the pressure at the inlet.
     const auto residual = [&](const Eigen::VectorXd& x) {
@@ -165,7 +167,8 @@ TreeFlow solve_tree(const TreeCase& tree) {
     };
     // Sizes that make the equations comparable: a flow at which the inlet's Reynolds number is 200, and what it costs there.
     const double d0 = diameter(tree.branches[0].area.front()), mu = tree.blood.viscosity_at(100.0);
-    const double flow_size = inlet_flow && inlet_flow->flow != 0 ? std::abs(inlet_flow->flow) : 50 * pi * d0 * mu / tree.blood.density;
+    const double flow_size =
+        inlet_flow && inlet_flow->flow != 0 ? std::abs(inlet_flow->flow) : 50 * pi * d0 * mu / tree.blood.density;
     double pressure_size = tree.blood.density * std::pow(flow_size / tree.branches[0].area.front(), 2);
     const auto shares = murray_shares(diameters, 3);
     Eigen::VectorXd x(leaves + 1);
@@ -179,7 +182,8 @@ TreeFlow solve_tree(const TreeCase& tree) {
             pressure_size = std::max(pressure_size, r->resistance * shares[std::size_t(k)] * flow_size);
     }
     for (Eigen::Index k = 0; k < leaves; ++k)
-        row_size[k] = std::holds_alternative<TreeFlowRate>(tree.outlets[t.leaves[std::size_t(k)]]) ? flow_size : pressure_size;
+        row_size[k] =
+            std::holds_alternative<TreeFlowRate>(tree.outlets[t.leaves[std::size_t(k)]]) ? flow_size : pressure_size;
     row_size[leaves] = inlet_flow ? flow_size : pressure_size;
 
     TreeFlow answer;
@@ -207,7 +211,8 @@ TreeFlow solve_tree(const TreeCase& tree) {
         x = next, r = next_r;
     }
     if (!(r.lpNorm<Eigen::Infinity>() < 1e-6))
-        throw GeometryError("no steady flow through the tree agrees with its ends; look for a branch that is nearly closed");
+        throw GeometryError(
+            "no steady flow through the tree agrees with its ends; look for a branch that is nearly closed");
     answer.flow = summed(tree, t, x.head(leaves));
     answer.inlet_pressure = x[leaves];
     answer.pressure = tree_pressures(tree, answer.flow, answer.inlet_pressure);

@@ -13,9 +13,9 @@ namespace patency {
 
 /// A narrowing within a branch, whose jet loses energy where it widens again.
 struct TreeLesion {
-    double throat_arc, end_arc;     ///< where it is narrowest, and where it ends [m]
-    double throat_area;             ///< [m^2]
-    double reference_area;          ///< of the vessel without it [m^2]
+    double throat_arc, end_arc;   ///< where it is narrowest, and where it ends [m]
+    double throat_area;           ///< [m^2]
+    double reference_area;        ///< of the vessel without it [m^2]
 };
 
 /// A vessel between two bifurcations, an end and a bifurcation, or two ends.
@@ -34,23 +34,23 @@ struct TreePressure {
 struct TreeFlowRate {
     double flow;   ///< [m^3/s]
 };
-struct TreeResistance {   ///< p = distal_pressure + resistance Q
-    double resistance;    ///< [Pa s/m^3]
+struct TreeResistance {           ///< p = distal_pressure + resistance Q
+    double resistance;            ///< [Pa s/m^3]
     double distal_pressure = 0;   ///< [Pa]
 };
 using TreeEnd = std::variant<TreePressure, TreeFlowRate, TreeResistance>;
 
 struct TreeBlood {
-    double density;                                   ///< [kg/m^3]
-    std::function<double(double)> viscosity_at;       ///< of the shear rate [1/s]: dynamic viscosity [Pa s]
+    double density;                               ///< [kg/m^3]
+    std::function<double(double)> viscosity_at;   ///< of the shear rate [1/s]: dynamic viscosity [Pa s]
 };
 
 struct TreeCase {
     std::vector<TreeBranch> branches;   ///< the inlet's first, parents before children
     TreeBlood blood;
-    TreeEnd inlet;                      ///< a flow or a pressure
-    std::vector<TreeEnd> outlets;       ///< one per branch; of branches that have children of no account
-    double inlet_entrance = 1;          ///< 1: the profile at the inlet is flat; 0: it is developed
+    TreeEnd inlet;                  ///< a flow or a pressure
+    std::vector<TreeEnd> outlets;   ///< one per branch; of branches that have children of no account
+    double inlet_entrance = 1;      ///< 1: the profile at the inlet is flat; 0: it is developed
 };
 
 /// The answer. Arrays are as the branches, stations as theirs.
