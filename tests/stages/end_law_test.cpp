@@ -66,6 +66,7 @@ TEST(EndVelocity, a_womersley_profile_integrates_to_its_waveform_at_all_times) {
     for (const double time : {0.0, 0.13, 0.5}) {
         const double w = 2 * std::numbers::pi / 0.8 * time, wanted = 2e-6 + 1e-6 * std::cos(w) + 3e-7 * std::sin(2 * w);
         EXPECT_NEAR(flow_through(tube_inlet, velocity, time), wanted, 1e-5 * 2e-6) << time;
+        EXPECT_NEAR(make_end_flow(tube_inlet, said, law, config.blood)(time), wanted, 1e-9 * 2e-6) << time;
     }
 }
 
@@ -80,6 +81,9 @@ TEST(EndVelocity, a_start_in_a_gap_begins_at_rest_and_ends_in_the_parabola) {
     EXPECT_NEAR(velocity(gap_inlet.centre, 0).x, 0, 1e-6 * peak);
     EXPECT_NEAR(velocity(gap_inlet.centre, 100).x, peak, 1e-12 * peak);
     EXPECT_THROW(make_end_velocity(tube_inlet, said, law, config.blood), DeckError);
+    const auto flow = make_end_flow(gap_inlet, said, law, config.blood);   // gap^2 / nu is a second
+    for (const double time : {0.001, 0.02, 0.1, 0.5}) EXPECT_NEAR(flow_through(gap_inlet, velocity, time), flow(time), 1e-5 * 2e-6) << time;
+    EXPECT_LT(flow(0.02), 0.3 * 2e-6);
 }
 
 TEST(Waveforms, come_from_tables_in_any_unit_or_are_refused) {

@@ -59,7 +59,7 @@ void make_ends(Scene& scene) {
         end.buffer_length = buffer_spacings * dp;
         if (law.prescribes_flow()) {
             end.velocity = make_end_velocity(opening, said, law, scene.config.blood);
-            end.imposed_flow = [signal = law.signal](double time) { return -signal(time); };
+            end.imposed_flow = [flow = make_end_flow(opening, said, law, scene.config.blood)](double time) { return -flow(time); };
         }
         scene.ends.push_back(std::move(end));
         scene.laws.push_back(std::move(law));

@@ -83,6 +83,20 @@ double startup_profile(double s, double tau) {
     return 1 - s * s - 32 / (pi * pi * pi) * sum;
 }
 
+/// Its mean over the gap, over the final mean.                                                  THEORY.md (12.2)
+double startup_flow(double tau) {
+    constexpr double pi = std::numbers::pi, negligible = 45;
+    const double decay = pi * pi * tau;
+    double sum = 0;
+    for (int k = 1; k < 4000 && k * (k * decay) < negligible; k += 2) sum += std::exp(-k * (k * decay)) / std::pow(k, 4);
+    return 1 - 96 / (pi * pi * pi * pi) * sum;
+}
+
+/// Of the start between plates, nu t / gap^2 per second of t.
+double startup_rate(const Opening& opening, const deck::Blood& blood) {
+    return blood.viscosity / blood.density / (4 * opening.radius * opening.radius);
+}
+
 }  // namespace
 
 EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config) {
@@ -127,7 +141,7 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
         case deck::VelocityProfile::developed_startup: {
             if (section != Section::planar)
                 throw DeckError(fmt::format("openings.{}.profile: developed_startup is known between plates only", opening.name));
-            const double rate = blood.viscosity / blood.density / (4 * radius * radius), to_peak = law.peak_to_mean;
+            const double rate = startup_rate(opening, blood), to_peak = law.peak_to_mean;
             return [=](const Vec3& x, double time) {
                 const double s = std::min(place(x), 1.0);
                 return mean_speed(time) * to_peak * startup_profile(s, rate * time) * inwards;
@@ -148,6 +162,15 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
         const double rise = ramp > 0 ? smooth_ramp(time, ramp) : 1.0;
         return rise * last->snapshot(std::min(place(x), 1.0)) * inwards;
     };
+}
+
+std::function<double(double)> make_end_flow(const Opening& opening, const deck::Opening& said, const EndLaw& law,
+                                            const deck::Blood& blood) {
+    if (said.profile == deck::VelocityProfile::developed_startup)
+        return [signal = law.signal, rate = startup_rate(opening, blood)](double time) { return signal(time) * startup_flow(rate * time); };
+    if (said.profile == deck::VelocityProfile::womersley)
+        return Signal{make_waveform(make_fourier_series(law.signal.waveform, womersley_modes)), law.signal.ramp};
+    return law.signal;
 }
 
 OutletResponse response_of(const EndLaw& law, double time, double ahead) {

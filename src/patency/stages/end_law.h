@@ -49,6 +49,11 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
 std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
                                                            const EndLaw& law, const deck::Blood& blood);
 
+/// The flow into the domain [m^3/s] that this velocity carries through the opening at a time: the signal's, but less in a start
+/// from rest, and of a Womersley profile that of its modes.
+std::function<double(double)> make_end_flow(const Opening& opening, const deck::Opening& said, const EndLaw& law,
+                                            const deck::Blood& blood);
+
 /// Sets what the pressure-like ends impose over an acoustic step of dt from `time` [s], from the flows they have
 /// measured, and returns the moving level [Pa] that it is above: the mean of the pressures that are prescribed; without
 /// any, the pressure at which the outlet models together would take up the prescribed inflow if they met in one point.
