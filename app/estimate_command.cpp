@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "deck_options.h"
 #include "patency/base/units.h"
+#include "patency/base/units.h"
 #include "patency/io/csv.h"
 #include "patency/io/output_folder.h"
 #include "patency/io/summary.h"
@@ -19,17 +20,19 @@ namespace patency::app {
 
 namespace {
 
-constexpr double mL_per_min = 1e-6 / 60, mmHg = 133.322387415;
-
 struct EstimateOptions {
     DeckOptions deck;
     std::string out;
     bool vary = false;
 };
 
-std::string shown_band(const std::optional<EstimateBand>& band, const Band* b, double unit, int digits) {
-    return band ? fmt::format("  ({:.{}f} to {:.{}f})", b->low / unit, digits, b->high / unit, digits) : "";
+std::string shown_band(const Band* band, std::string_view unit, int digits) {
+    if (!band) return "";
+    const auto shown = [&](double si) { return unit.empty() ? si : in_unit(si, unit); };
+    return fmt::format("  ({:.{}f} to {:.{}f})", shown(band->low), digits, shown(band->high), digits);
 }
+double mL_per_min(double flow) { return in_unit(flow, "mL/min"); }
+double mmHg(double pressure) { return in_unit(pressure, "mmHg"); }
 
 void print(const Vessel& vessel, const Estimate& e, const std::optional<EstimateBand>& band) {
     fmt::print("Openings (flow out of the vessel):\n    {:<16} {:>11} {:>11} {:>14}\n", "name", "diameter mm",
@@ -37,8 +40,8 @@ void print(const Vessel& vessel, const Estimate& e, const std::optional<Estimate
     for (std::size_t k = 0; k < vessel.openings.size(); ++k) {
         const Opening& o = vessel.openings[k].opening;
         fmt::print("    {:<16} {:>11.3f} {:>11.2f} {:>14.3f}{}\n", o.name, 2e3 * o.radius,
-                   e.opening_flows[k] / mL_per_min, e.opening_pressures[k] / mmHg,
-                   shown_band(band, band ? &band->opening_flows[k] : nullptr, mL_per_min, 1));
+                   mL_per_min(e.opening_flows[k]), mmHg(e.opening_pressures[k]),
+                   shown_band(band ? &band->opening_flows[k] : nullptr, "mL/min", 1));
     }
     fmt::print("Branches:\n    {:<20} {:>11} {:>10} {:>12} {:>8}\n", "name", "flow mL/min", "drop mmHg", "end mmHg",
                "FFR");
@@ -46,7 +49,7 @@ void print(const Vessel& vessel, const Estimate& e, const std::optional<Estimate
         const auto& p = e.flow.pressure[b];
         const auto ffr = e.ffr(b, p.size() - 1);
         fmt::print("    {:<20} {:>11.2f} {:>10.3f} {:>12.3f} {:>8}\n", e.tree.branches[b].name,
-                   e.flow.flow[b] / mL_per_min, (p.front() - p.back()) / mmHg, p.back() / mmHg,
+                   mL_per_min(e.flow.flow[b]), mmHg(p.front() - p.back()), mmHg(p.back()),
                    ffr ? fmt::format("{:.3f}", *ffr) : "-");
     }
     fmt::print("Lesions: {}\n", e.lesions.empty() ? "none" : "");
@@ -55,10 +58,10 @@ void print(const Vessel& vessel, const Estimate& e, const std::optional<Estimate
         const Lesion& lesion = vessel.along->assessment.lesions[l.number];
         fmt::print("  L{} in {} at {:.2f} mm: {:.1f} % of the diameter, {:.2f} mL/min, drop {:.3f} mmHg\n",
                    l.number + 1, vessel.along->lines.branches[lesion.branch].name, 1e3 * lesion.throat_arc,
-                   100 * lesion.diameter_stenosis, l.flow / mL_per_min, l.drop / mmHg);
+                   100 * lesion.diameter_stenosis, mL_per_min(l.flow), mmHg(l.drop));
         if (l.ffr)
             fmt::print("     FFR {:.3f}{} at {:.1f} mm\n", *l.ffr,
-                       shown_band(band, band ? &band->lesion_ffr[k] : nullptr, 1, 3), 1e3 * l.read_arc);
+                       shown_band(band ? &band->lesion_ffr[k] : nullptr, "", 3), 1e3 * l.read_arc);
     }
     if (!e.aortic_pressure) fmt::print("No FFR: the deck gives no aortic pressure (aorta.pressure).\n");
 }

@@ -101,7 +101,8 @@ void OutputFolder::clear() const {
     }
     for (std::string_view name : result_files) fs::remove(root_ / name, error);
     for (const fs::directory_entry& entry : fs::directory_iterator(root_))
-        if (entry.path().extension() == ".pvd") fs::remove(entry.path(), error);
+        if (entry.path().extension() == ".pvd" || entry.path().filename().string().starts_with("pullback_"))
+            fs::remove(entry.path(), error);
 }
 
 bool is_output_folder(const fs::path& root) {

@@ -9,11 +9,10 @@
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
 #include "patency/io/network_file.h"
-#include "patency/io/surface_file.h"
 #include "patency/physics/open_ends/bed.h"
 #include "patency/shape/network_lumen.h"
 #include "patency/shape/surface_lumen.h"
-#include "patency/shape/surface_openings.h"
+#include "patency/stages/vessel.h"
 
 namespace patency {
 
@@ -120,16 +119,10 @@ Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
 Lumen make_lumen_of_surface(const deck::Case& config) {
     const deck::Geometry& geometry = config.geometry;
     const double dp = config.numerics.spacing;
-    const CheckedSurface checked = check_surface(read_surface(*geometry.surface, geometry.unit.value_or("mm"), geometry.space.value_or("")));
-    if (const std::string why = refusals(checked.findings); !why.empty())
-        throw GeometryError(fmt::format("geometry.surface: {} cannot be used; patency inspect shows where.\n{}", geometry.surface->string(), why));
-    const std::vector<SurfaceOpening> openings = find_openings(checked);
-    if (const std::string why = refusals(find_missing_openings(openings)); !why.empty())
-        throw GeometryError(fmt::format("geometry.surface: {}: {}", geometry.surface->string(), why));
-    expect_vessel_size(openings.front(), geometry.unit.value_or("mm"));
+    const Vessel vessel = open_vessel(config);
     // Half a spacing: the distance errs by less than a twentieth of it. Ten voxels hold the wall's points and those that may
     // become some; the continuations hold the buffer, the wall beyond it and its kernels.
-    Lumen lumen = make_surface_lumen(checked, openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
+    Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
                                                          .straight = geometry.extensions.diameters});
     // Of the openings: a throat between them is narrower, but nobody has followed the vessel yet.
     std::vector<double> diameters;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/vessel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "patency/base/errors.h"
@@ -48,19 +50,42 @@ void follow_vessel(Vessel& vessel) {
     }
 }
 
+namespace {
+
+void expect_usable(const Vessel& vessel, const deck::Geometry& geometry) {
+    const std::string refused = refusals(vessel.checked.findings);
+    if (refused.empty()) return;
+    throw GeometryError(fmt::format("geometry: {} cannot be used; patency inspect shows where.\n{}",
+                                    (geometry.network ? *geometry.network : *geometry.surface).string(), refused));
+}
+
+}   // namespace
+
+Vessel open_vessel(const deck::Case& config) {
+    const deck::Geometry& g = config.geometry;
+    Vessel vessel = check_vessel(read_surface(g.surface.value(), g.unit.value_or(""), g.space.value_or("")));
+    expect_usable(vessel, g);
+    expect_vessel_size(vessel.openings.front(), g.unit.value_or("mm"));
+    return vessel;
+}
+
 Vessel read_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     if (!g.surface && !g.network)
         throw DeckError("geometry: a surface or a network is needed; a shape has no branches to follow");
-    Vessel vessel = g.network ? check_vessel(read_network_of(config))
-                              : check_vessel(read_surface(*g.surface, g.unit.value_or(""), g.space.value_or("")));
-    follow_vessel(vessel);
-    if (g.network) {
-        std::vector<NamedCurve> curves;
-        for (const Tube& tube : read_network_of(config).tubes) curves.push_back({tube.name, tube.points});
-        name_branches(vessel.along.value().lines, curves);
+    if (g.surface) {
+        Vessel vessel = open_vessel(config);
+        follow_vessel(vessel);
+        expect_usable(vessel, g);
+        return vessel;
     }
-    if (const std::string refused = refusals(vessel.checked.findings); !refused.empty()) throw GeometryError(refused);
+    const Network network = read_network_of(config);
+    Vessel vessel = check_vessel(network);
+    follow_vessel(vessel);
+    expect_usable(vessel, g);
+    std::vector<NamedCurve> curves;
+    for (const Tube& tube : network.tubes) curves.push_back({tube.name, tube.points});
+    name_branches(vessel.along->lines, curves);
     return vessel;
 }
 

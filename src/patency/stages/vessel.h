@@ -38,6 +38,10 @@ Vessel check_vessel(const Network& network, std::string_view inlet = {});
 /// where something is refused already.
 void follow_vessel(Vessel& vessel);
 
+/// The vessel of a deck's surface, ready for use but not followed. Throws GeometryError with all refusals, or a question about the
+/// unit if its size is none of a vessel's; FileError.
+Vessel open_vessel(const deck::Case& config);
+
 /// The vessel of a deck's surface or network, followed. Throws GeometryError with all refusals; FileError; DeckError for a deck with
 /// neither.
 Vessel read_vessel(const deck::Case& config);
