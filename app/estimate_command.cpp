@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency estimate: flow split, pressures and FFR of a vessel as a tree of tubes, in a second. A table on the terminal; with
-// -o summary.json and a pullback per outlet.
+// -o summary.json and pullback.csv.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -9,7 +9,6 @@
 
 #include "commands.h"
 #include "deck_options.h"
-#include "patency/base/units.h"
 #include "patency/base/units.h"
 #include "patency/io/csv.h"
 #include "patency/io/output_folder.h"
@@ -71,10 +70,9 @@ void write(const EstimateOptions& o, const deck::Case& config, const Vessel& ves
     const OutputFolder folder(o.out);
     folder.clear();
     write_summary(folder.file("summary.json"), estimate_summary(config, vessel, e, band));
-    for (const Pullback& p : estimate_pullbacks(vessel, e)) {
-        CsvWriter csv(folder.file("pullback_" + p.outlet + ".csv"), p.columns);
-        for (const auto& row : p.rows) csv.write_row(row);
-    }
+    const Pullback p = estimate_pullback(vessel, e);
+    CsvWriter csv(folder.file("pullback.csv"), p.columns);
+    for (const auto& row : p.rows) csv.write_row(row);
 }
 
 void estimate(const EstimateOptions& o) {

@@ -61,6 +61,10 @@ ExitCode run(const FlowOptions& options) {
                                                   .log = log,
                                                   .progress = &progress});
         if (outcome == Outcome::done) return ExitCode::ok;
+        if (outcome == Outcome::unsettled) {
+            log(LogLevel::warning, "the flow had not settled at the end of numerics.duration; the results are marked, a longer duration will do");
+            return ExitCode::bar_missed;
+        }
     } catch (const Error& error) {
         file(LogLevel::error, error.what());   // on the terminal main.cpp says it
         throw;

@@ -28,7 +28,7 @@ TEST(WallShear, OfAParabolaIsPoiseuilles) {
     const PoiseuilleTube tube;
     const WallPlaces places = places_around(tube, 4.5e-3, 24);
     const auto stress =
-        wall_shear_stress(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
+        flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; }).shear_stress;
     const double exact = tube.wall_stress(3.5e-3);
     for (std::size_t k = 0; k < stress.size(); ++k) {
         EXPECT_NEAR(dot(stress[k], tube.axis()) / exact, 1, 0.01) << k;   // with the stream
@@ -41,11 +41,11 @@ TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {
     const PoiseuilleTube tube;
     const WallPlaces places = places_around(tube, 4.5e-3, 3);
     std::vector<double> asked;
-    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [&](double rate) {
+    const auto stress = flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [&](double rate) {
 #pragma omp critical
         asked.push_back(rate);
         return 1e-6 * rate;
-    });
+    }).shear_stress;
     ASSERT_EQ(asked.size(), 3u);
     const double rate = 4 * tube.mean_speed / tube.radius;
     for (double r : asked) EXPECT_NEAR(r / rate, 1, 0.01);
@@ -54,8 +54,8 @@ TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {
 
 TEST(WallShear, WithoutBloodNearbyThereIsNone) {
     const PoiseuilleTube tube;
-    const auto stress = wall_shear_stress(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(),
-                                          tube.wall, [](double) { return 1.0; });
+    const auto stress = flow_at_wall(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(),
+                                          tube.wall, [](double) { return 1.0; }).shear_stress;
     for (const Vec3& s : stress) EXPECT_TRUE(std::isnan(s.x));
 }
 

@@ -119,7 +119,7 @@ TEST(FlowRecorder, rows_of_waveforms_add_up_to_what_flowed) {
         volume += row[3] * (end - last);
         last = end;
     };
-    advance(*scene, {.until = 0.01, .observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s); }});
+    advance(*scene, {.until = 0.01, .observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s, s.time >= 0.01); }});
     EXPECT_NEAR(last, 0.01, 1e-12);   // rounded once a row
     EXPECT_NEAR(volume, scene->laws[1].volume_out, 1e-12 * volume);   // sums of as many differences as rows
 }
@@ -136,7 +136,7 @@ TEST(FlowRecorder, a_profile_is_written_at_its_time_and_only_inside) {
         if (table == 1) rows.emplace_back(row.begin(), row.end());
     };
     FlowRun run{.until = 0.01, .exact_times = recorder.exact_times()};
-    run.observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s); };
+    run.observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s, s.time >= 0.01); };
     advance(*scene, run);
     ASSERT_EQ(rows.size(), 5u);   // of nine places a quarter millimetre apart, y = 0, 0.25, .. 1 mm are in the gap
     for (const auto& row : rows) {

@@ -91,4 +91,54 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
     return result;
 }
 
+namespace {
+
+/// What is averaged of a section, in the order of a state.
+constexpr double SectionFlow::* averaged[] = {&SectionFlow::area, &SectionFlow::flow, &SectionFlow::pressure,
+                                              &SectionFlow::mean_velocity, &SectionFlow::peak_velocity};
+
+}   // namespace
+
+void SectionFlowMeans::add(std::span<const SectionFlow> sections, double level) {
+    sum_.resize(sections.size()), squares_.resize(sections.size());
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+        SectionFlow now = sections[k];
+        now.pressure += level;
+        for (const auto member : averaged) sum_[k].*member += now.*member, squares_[k].*member += now.*member * now.*member;
+    }
+    ++instants_;
+}
+
+std::vector<SectionFlow> SectionFlowMeans::mean() const {
+    std::vector<SectionFlow> means = sum_;
+    for (SectionFlow& m : means)
+        for (const auto member : averaged) m.*member /= double(instants_);
+    return means;
+}
+
+std::vector<SectionFlow> SectionFlowMeans::deviation() const {
+    std::vector<SectionFlow> result = mean();
+    for (std::size_t k = 0; k < result.size(); ++k)
+        for (const auto member : averaged) {
+            double& value = result[k].*member;
+            value = std::sqrt(std::max(0.0, squares_[k].*member / double(instants_) - value * value));
+        }
+    return result;
+}
+
+std::vector<double> SectionFlowMeans::state() const {
+    std::vector<double> state{double(instants_)};
+    for (std::size_t k = 0; k < sum_.size(); ++k)
+        for (const auto member : averaged) state.push_back(sum_[k].*member), state.push_back(squares_[k].*member);
+    return state;
+}
+
+void SectionFlowMeans::restore(std::span<const double> state) {
+    instants_ = std::size_t(state[0]);
+    sum_.assign((state.size() - 1) / (2 * std::size(averaged)), {}), squares_ = sum_;
+    std::size_t n = 1;
+    for (std::size_t k = 0; k < sum_.size(); ++k)
+        for (const auto member : averaged) sum_[k].*member = state[n++], squares_[k].*member = state[n++];
+}
+
 }   // namespace patency

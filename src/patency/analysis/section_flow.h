@@ -40,4 +40,23 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
                                                std::span<const SectionGrid> sections, double reach,
                                                const WallHint& wall);
 
+/// Means over instants and how much they swing. Flow and pressure of a section that saw no blood once stay NaN.
+class SectionFlowMeans {
+public:
+    /// One instant: the sections always in the same order; pressure above `level` [Pa].
+    void add(std::span<const SectionFlow> sections, double level);
+
+    std::size_t instants() const { return instants_; }
+    std::vector<SectionFlow> mean() const;        ///< pressures with their levels; the area of the last instant
+    std::vector<SectionFlow> deviation() const;   ///< standard ones, of area 0
+
+    /// For checkpoints: instants, then per section and number the sum and the sum of squares.
+    std::vector<double> state() const;
+    void restore(std::span<const double> state);
+
+private:
+    std::size_t instants_ = 0;
+    std::vector<SectionFlow> sum_, squares_;
+};
+
 }   // namespace patency

@@ -7,23 +7,24 @@
 
 namespace patency {
 
-std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
+WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
                                     double reach, const WallHint& wall,
                                     const std::function<double(double)>& viscosity_at) {
     const auto samples = sample_flow(fluid, frame, places.position, reach, false, &wall);
-    std::vector<Vec3> stress(samples.size());
+    WallFlow flow{std::vector<Vec3>(samples.size()), std::vector<double>(samples.size())};
     for (std::size_t k = 0; k < samples.size(); ++k) {
         const Mat3& g = samples[k].velocity_gradient;
         const Vec3& n = places.normal[k];
         if (samples[k].neighbours == 0) {
-            stress[k] = {NAN, NAN, NAN};
+            flow.shear_stress[k] = {NAN, NAN, NAN}, flow.pressure[k] = NAN;
             continue;
         }
         const double mu = viscosity_at(shear_rate(g));
         const Vec3 traction = -mu * (g * n + transpose(g) * n);   // on the wall, whose outward is the blood's inward
-        stress[k] = traction - dot(traction, n) * n;
+        flow.shear_stress[k] = traction - dot(traction, n) * n;
+        flow.pressure[k] = samples[k].pressure;
     }
-    return stress;
+    return flow;
 }
 
 void WallShearMeans::add(std::span<const Vec3> stress, double dt) {
@@ -59,6 +60,22 @@ std::vector<double> WallShearMeans::rrt() const {   // (1 - 2 OSI) TAWSS is the 
     std::vector<double> result;
     for (const Vec3& sum : vector_) result.push_back(time_ / norm(sum));
     return result;
+}
+
+std::vector<double> WallShearMeans::state() const {
+    std::vector<double> state{time_};
+    for (std::size_t k = 0; k < vector_.size(); ++k)
+        state.insert(state.end(), {vector_[k].x, vector_[k].y, vector_[k].z, magnitude_[k]});
+    return state;
+}
+
+void WallShearMeans::restore(std::span<const double> state) {
+    time_ = state[0];
+    vector_.clear(), magnitude_.clear();
+    for (std::size_t n = 1; n + 3 < state.size(); n += 4) {
+        vector_.push_back({state[n], state[n + 1], state[n + 2]});
+        magnitude_.push_back(state[n + 3]);
+    }
 }
 
 }   // namespace patency

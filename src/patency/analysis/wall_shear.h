@@ -16,10 +16,17 @@ struct WallPlaces {
     std::vector<Vec3> normal;     ///< unit, OUT of the blood
 };
 
+/// What the blood does to a wall, one per place.
+struct WallFlow {
+    std::vector<Vec3> shear_stress;   ///< [Pa], along the wall
+    std::vector<double> pressure;     ///< above the reference pressure [Pa]
+};
+
 /// The force of the blood along the wall, per area [Pa], at every place: the viscosity at the shear rate there, times the
 /// velocity gradient fitted one-sidedly to the blood and to the wall's own velocity. It points where the blood goes. NaN
 /// where no blood is within `reach` [m]. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
-std::vector<Vec3> wall_shear_stress(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
+/// Pressures are fitted to the blood alone.
+WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
                                     double reach, const WallHint& wall,
                                     const std::function<double(double)>& viscosity_at);
 
@@ -34,6 +41,10 @@ public:
     std::vector<double> tawss() const;          ///< mean of the magnitude [Pa]                        THEORY.md (13.8)
     std::vector<double> osi() const;            ///< oscillatory shear index, 0 to 1/2                 THEORY.md (13.9)
     std::vector<double> rrt() const;            ///< relative residence time [1/Pa]                    THEORY.md (13.10)
+
+    /// For checkpoints: the duration, then four integrals per place.
+    std::vector<double> state() const;
+    void restore(std::span<const double> state);
 
 private:
     std::vector<Vec3> vector_;   // integrals over time

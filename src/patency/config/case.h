@@ -50,11 +50,11 @@ inline Words words(VelocityProfile) { return {"plug", "parabola", "womersley", "
 enum class BedState { hyperaemic, resting };
 inline Words words(BedState) { return {"hyperaemic", "resting"}; }
 
-enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley };
-inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley"}; }
+enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley, estimate };
+inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley", "estimate"}; }
 
-enum class InitialPressure { zero, linear };
-inline Words words(InitialPressure) { return {"zero", "linear"}; }
+enum class InitialPressure { zero, linear, estimate };
+inline Words words(InitialPressure) { return {"zero", "linear", "estimate"}; }
 
 enum class SchemeName { sph, paper };
 inline Words words(SchemeName) { return {"sph", "paper"}; }
@@ -266,10 +266,17 @@ struct Stent {   // exactly one of design, pattern, surface
 };
 
 struct Initial {
-    InitialVelocity velocity = InitialVelocity::rest;
-    std::optional<double> speed;   ///< m/s: mean (plug, parabola) or amplitude (taylor_green)
-    InitialPressure pressure = InitialPressure::zero;
+    std::optional<InitialVelocity> velocity;   ///< absent: the estimate of a surface or network, else rest
+    std::optional<double> speed;               ///< m/s: mean (plug, parabola) or amplitude (taylor_green)
+    std::optional<InitialPressure> pressure;   ///< absent: the estimate of a surface or network, else zero
     bool operator==(const Initial&) const = default;
+};
+
+/// A run that ends when its flow has settled, `duration` at the latest.
+struct Convergence {
+    double tolerance_percent = 0.5;   ///< change of flows and pressures at the openings from one window to the next
+    std::optional<double> window;     ///< s; absent: a quarter of what the blood needs to pass the lumen, or the period
+    bool operator==(const Convergence&) const = default;
 };
 
 struct Numerics {
@@ -281,6 +288,7 @@ struct Numerics {
     std::optional<double> reference_speed;    ///< m/s, the largest expected; absent: from the openings
     Precision precision = Precision::mixed;
     double duration = 0;                      ///< s of simulated time
+    std::optional<Convergence> convergence;   ///< absent: all of the duration is run
     double advection_cfl = 0.25;              // Zhang et al. 2020, dual-criteria stepping
     double acoustic_cfl = 0.6;                // the same
     int threads = 0;                          ///< 0: all
@@ -336,6 +344,15 @@ struct Case {
     Output output;
     std::vector<Run> runs;
     bool operator==(const Case&) const = default;
+
+    /// A surface or a network, which has centrelines and an estimate; shapes have not.
+    bool has_vessel() const { return geometry.surface || geometry.network; }
+    InitialVelocity initial_velocity() const {
+        return initial.velocity.value_or(has_vessel() ? InitialVelocity::estimate : InitialVelocity::rest);
+    }
+    InitialPressure initial_pressure() const {
+        return initial.pressure.value_or(has_vessel() ? InitialPressure::estimate : InitialPressure::zero);
+    }
 };
 
 }  // namespace patency::deck

@@ -195,9 +195,12 @@ private:
     }
 
     void check_initial() {
-        expect(case_.initial.velocity != InitialVelocity::taylor_green || case_.geometry.shape, "initial.velocity",
+        expect(case_.initial_velocity() != InitialVelocity::taylor_green || case_.geometry.shape, "initial.velocity",
                "taylor_green needs a box", {"geometry"});
-        if (case_.initial.pressure == InitialPressure::linear)
+        const std::string needs_vessel = "estimate needs a surface or a network; shapes have no centrelines";
+        expect(case_.initial_velocity() != InitialVelocity::estimate || case_.has_vessel(), "initial.velocity", needs_vessel, {"geometry"});
+        expect(case_.initial_pressure() != InitialPressure::estimate || case_.has_vessel(), "initial.pressure", needs_vessel, {"geometry"});
+        if (case_.initial_pressure() == InitialPressure::linear)
             expect(!case_.openings.empty(), "initial.pressure", "linear needs openings with pressures", {"openings"});
     }
 

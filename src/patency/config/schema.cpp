@@ -382,11 +382,23 @@ const Table& table_of<Stent>() {
 template <>
 const Table& table_of<Initial>() {
     static const Table table = make_table<Initial>("The blood at the start.", {
-        row(&Initial::velocity, {.key = "velocity", .help = "the velocity field"}),
+        row(&Initial::velocity, {.key = "velocity", .help = "the velocity field; that of the estimate if absent, of shapes rest", .example = "estimate"}),
         row(&Initial::speed, {.key = "speed", .help = "the mean velocity; taylor_green: the amplitude", .unit = "m/s",
                               .range = between(-largest_speed, largest_speed),
                               .need = where("velocity", {"plug", "parabola", "taylor_green"})}),
-        row(&Initial::pressure, {.key = "pressure", .help = "zero, or linear between the openings' pressures"}),
+        row(&Initial::pressure, {.key = "pressure", .help = "zero, linear between the openings' pressures, or that of the estimate", .example = "estimate"}),
+    });
+    return table;
+}
+
+template <>
+const Table& table_of<Convergence>() {
+    static const Table table = make_table<Convergence>("When a flow has settled.", {
+        row(&Convergence::tolerance_percent, {.key = "tolerance_percent",
+                                              .help = "largest change of the openings' flows and pressures from window to window, twice in a row",
+                                              .range = above_up_to(0, 10)}),
+        row(&Convergence::window, {.key = "window", .help = "the length of a window; a quarter of a passage, or the period, if absent",
+                                   .unit = "s", .range = above(0), .example = "0.05 s"}),
     });
     return table;
 }
@@ -411,6 +423,7 @@ const Table& table_of<Numerics>() {
             row(&Numerics::precision, {.key = "precision", .help = "mixed: differences in single, sums in double"}),
             row(&Numerics::duration, {.key = "duration", .help = "the simulated time", .unit = "s",
                                       .range = above_up_to(0, 1e4), .example = "2 s", .need = always}),
+            row(&Numerics::convergence, {.key = "convergence", .help = "ends the run when the flow has settled, the duration at the latest"}),
             row(&Numerics::advection_cfl, {.key = "advection_cfl", .help = "advection step over h / largest speed",
                                            .range = above_up_to(0, 1)}),
             row(&Numerics::acoustic_cfl, {.key = "acoustic_cfl", .help = "acoustic step over h / (sound speed + speed)",

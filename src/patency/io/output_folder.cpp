@@ -26,7 +26,8 @@ constexpr std::string_view marker_text =
 /// The results of every run, beside the .pvd files.
 constexpr std::string_view result_folders[] = {"checkpoint", "frames"};
 constexpr std::string_view result_files[] = {"summary.json",  "timing.json", "pullback.csv", "sections.csv",
-                                             "waveforms.csv", "report.html", "log.txt",      "case.resolved.yaml"};
+                                             "waveforms.csv", "report.html", "log.txt",      "case.resolved.yaml",
+                                             "wall.vtp",      "centreline.vtp", "offenders.vtp"};
 
 void make_folder(const fs::path& path) {
     std::error_code error;
@@ -101,8 +102,7 @@ void OutputFolder::clear() const {
     }
     for (std::string_view name : result_files) fs::remove(root_ / name, error);
     for (const fs::directory_entry& entry : fs::directory_iterator(root_))
-        if (entry.path().extension() == ".pvd" || entry.path().filename().string().starts_with("pullback_"))
-            fs::remove(entry.path(), error);
+        if (entry.path().extension() == ".pvd") fs::remove(entry.path(), error);
 }
 
 bool is_output_folder(const fs::path& root) {

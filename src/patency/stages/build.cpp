@@ -7,6 +7,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/stages/bed.h"
+#include "patency/stages/estimated_field.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/initial_state.h"
 #include "patency/stages/lumen_of_case.h"
@@ -80,6 +81,34 @@ std::unique_ptr<Frame> make_frame(const Scene& scene) {
     return std::make_unique<Frame>(box.low, box.high, support_of(scene.config.numerics), periodic);
 }
 
+/// The vessel behind the lumen and its estimate, which knows the narrowest place that nobody named.
+void follow(Scene& scene) {
+    scene.vessel = read_vessel(scene.config);
+    scene.estimate = estimate_flow(scene.config, *scene.vessel);
+    for (const Centreline& line : scene.vessel->along->lines.lines)
+        for (const CentrelinePoint& point : line.points) scene.lumen.narrowest = std::min(scene.lumen.narrowest, 2 * point.radius);
+}
+
+/// Compliances begin at the pressure that the estimate leaves behind their proximal resistance, where the deck names none.
+void fill_compliances(Scene& scene) {
+    const auto& openings = scene.vessel->openings;
+    for (std::size_t k = 0; k < openings.size(); ++k)
+        for (std::size_t e = 0; e < scene.ends.size(); ++e) {
+            EndLaw& law = scene.laws[e];
+            const auto* rcr = law.outlet ? std::get_if<Rcr>(&*law.outlet) : nullptr;
+            if (!rcr || scene.ends[e].name != openings[k].opening.name) continue;
+            if (scene.config.openings.at(scene.ends[e].name).initial_pressure) continue;
+            law.state[0] = law.level_state[0] =
+                scene.estimate->opening_pressures[k] - rcr->proximal_resistance * scene.estimate->opening_flows[k];
+        }
+}
+
+Expected expect_flow(const Scene& scene) {
+    Expected expected = estimate_expected(scene.config, scene.lumen, scene.laws, scene.material);
+    if (scene.estimate) expect_estimate(expected, scene.config, EstimatedField(*scene.vessel, *scene.estimate), scene.laws, scene.material);
+    return expected;
+}
+
 /// Zero, or of the deck's wall that the particle belongs to.
 Vec3 wall_velocity(const deck::Wall& wall, const Vec3& normal) {
     if (const auto named = wall.velocity.find(std::string(plane_wall_name(normal))); named != wall.velocity.end()) return named->second;
@@ -135,12 +164,14 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config) {
     if (config.wall.motion != deck::WallMotion::rigid)
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
     scene->lumen = make_lumen(config);
+    if (config.has_vessel()) follow(*scene);
     tune_outlets(scene->config, scene->lumen.openings);
     expect_wall_names(*scene);
     scene->material = make_material(config.blood);
     scene->numerics = make_numerics(config, scene->lumen);
     make_ends(*scene);
-    const Expected expected = estimate_expected(config, scene->lumen, scene->laws, scene->material);
+    if (scene->estimate && config.initial_pressure() == deck::InitialPressure::estimate) fill_compliances(*scene);
+    const Expected expected = expect_flow(*scene);
     scene->numerics.reference_speed = expected.speed;
     scene->material.sound_speed = choose_sound_speed(config, scene->lumen, expected, scene->material);
     scene->frame = make_frame(*scene);

@@ -75,25 +75,24 @@ Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Esti
     return summary;
 }
 
-std::vector<Pullback> estimate_pullbacks(const Vessel& vessel, const Estimate& e) {
-    std::vector<Pullback> pullbacks;
+Pullback estimate_pullback(const Vessel& vessel, const Estimate& e) {
+    Pullback p{{"arc_m", "outlet", "area_m2", "flow_m3_per_s", "pressure_pa"}, {}};
+    if (e.aortic_pressure) p.columns.push_back("ffr");
     const auto& lines = vessel.along.value().lines;
     for (std::size_t line = 0; line < lines.lines.size(); ++line) {
-        Pullback p{lines.lines[line].outlet, {"arc_m", "area_m2", "flow_m3_per_s", "pressure_pa"}, {}};
-        if (e.aortic_pressure) p.columns.push_back("ffr");
+        const auto first = std::ptrdiff_t(p.rows.size());
         for (std::size_t b = 0; b < lines.branches.size(); ++b) {
             const auto& through = lines.branches[b].lines;
             if (std::find(through.begin(), through.end(), line) == through.end()) continue;
             const TreeBranch& branch = e.tree.branches[b];
             for (std::size_t k = 0; k < branch.arc.size(); ++k) {
-                p.rows.push_back({branch.arc[k], branch.area[k], e.flow.flow[b], e.flow.pressure[b][k]});
+                p.rows.push_back({branch.arc[k], double(line + 1), branch.area[k], e.flow.flow[b], e.flow.pressure[b][k]});
                 if (e.aortic_pressure) p.rows.back().push_back(*e.ffr(b, k));
             }
         }
-        std::sort(p.rows.begin(), p.rows.end());
-        pullbacks.push_back(std::move(p));
+        std::sort(p.rows.begin() + first, p.rows.end());
     }
-    return pullbacks;
+    return p;
 }
 
 }   // namespace patency

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An estimate as numbers for files: summary.json and a pullback per outlet. Writes none.
+// An estimate as numbers for files: summary.json and the pullbacks. Writes none.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,12 +14,12 @@ namespace patency {
 nlohmann::ordered_json estimate_summary(const deck::Case& config, const Vessel& vessel, const Estimate& estimate,
                                         const std::optional<EstimateBand>& band);
 
-/// Along the line to one outlet: arc, area, flow, static pressure and, with an aortic pressure, FFR.
+/// Along the line to every outlet, one after the other: arc, number of the outlet (1: the first after the inlet), area, flow, static
+/// pressure and, with an aortic pressure, FFR.
 struct Pullback {
-    std::string outlet;
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
 };
-std::vector<Pullback> estimate_pullbacks(const Vessel& vessel, const Estimate& estimate);
+Pullback estimate_pullback(const Vessel& vessel, const Estimate& estimate);
 
 }   // namespace patency

@@ -27,6 +27,15 @@ FlowMark read_mark(const CheckpointReader& reader, const std::string& name) {
             .inside = reader.read<std::int64_t>(name + "/inside")};
 }
 
+void write_window(CheckpointWriter& writer, const FlowWindow::State& state) {
+    if (state.begin) write_mark(writer, "window/begin", *state.begin);
+    if (state.last) write_mark(writer, "window/last", *state.last);
+    if (state.before) write_mark(writer, "window/before", *state.before);
+    writer.write("window/end", state.end);
+    writer.write("window/change_percent", state.change_percent);
+    writer.write("window/is_settled", std::int64_t(state.is_settled));
+}
+
 }  // namespace
 
 CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_hash) {
@@ -40,7 +49,7 @@ CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_h
 }
 
 void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin, const Scene& scene,
-                           const FlowRecorder& recorder) {
+                           const FlowRecorder& recorder, const FlowWindow& window, const VesselRecorder* vessel) {
     CheckpointWriter writer(path, origin);
     writer.write(scene.fluid, "fluid");
     writer.write(scene.wall, "wall");
@@ -50,8 +59,13 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
     const FlowRecorder::State state = recorder.state();
     writer.write("recorder/last_row", state.last_row);
     write_mark(writer, "recorder/row", state.row_mark);
-    writer.write("recorder/has_window", std::int64_t(state.window.has_value()));
-    if (state.window) write_mark(writer, "recorder/window", *state.window);
+    write_window(writer, window.state());
+    if (vessel) {
+        const VesselRecorder::State means = vessel->state();
+        writer.write("vessel/flows", means.flows);
+        writer.write("vessel/shear", means.shear);
+        writer.write("vessel/pressure", means.pressure);
+    }
     writer.finish();
 }
 
@@ -68,9 +82,25 @@ std::unique_ptr<Scene> read_scene(const CheckpointReader& checkpoint, const deck
 }
 
 void read_recorder(const CheckpointReader& checkpoint, FlowRecorder& recorder) {
-    FlowRecorder::State state{.last_row = checkpoint.read<double>("recorder/last_row"), .row_mark = read_mark(checkpoint, "recorder/row"), .window = {}};
-    if (checkpoint.read<std::int64_t>("recorder/has_window") != 0) state.window = read_mark(checkpoint, "recorder/window");
-    recorder.restore(state);
+    recorder.restore({.last_row = checkpoint.read<double>("recorder/last_row"), .row_mark = read_mark(checkpoint, "recorder/row")});
+}
+
+void read_vessel_recorder(const CheckpointReader& checkpoint, VesselRecorder& vessel) {
+    const auto numbers = [&](const char* name) { return checkpoint.read<std::vector<double>>(name); };
+    vessel.restore({numbers("vessel/flows"), numbers("vessel/shear"), numbers("vessel/pressure")});
+}
+
+void read_window(const CheckpointReader& checkpoint, FlowWindow& window) {
+    const auto mark = [&](const char* name) -> std::optional<FlowMark> {
+        if (!checkpoint.contains(std::string(name) + "/time")) return {};
+        return read_mark(checkpoint, name);
+    };
+    window.restore({.begin = mark("window/begin"),
+                    .last = mark("window/last"),
+                    .before = mark("window/before"),
+                    .end = checkpoint.read<double>("window/end"),
+                    .change_percent = checkpoint.read<double>("window/change_percent"),
+                    .is_settled = checkpoint.read<std::int64_t>("window/is_settled") != 0});
 }
 
 }  // namespace patency

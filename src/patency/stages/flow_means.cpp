@@ -16,14 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+}  // namespace
+
 void expect_finite(const Json& json, const std::string& path) {
-    if (json.is_object())
+    if (json.is_structured())
         for (const auto& [key, value] : json.items()) expect_finite(value, path.empty() ? key : path + "." + key);
     else if (json.is_number_float() && !std::isfinite(json.get<double>()))
         throw DivergedError(fmt::format("{} is not a finite number: the flow diverged", path));
 }
-
-}  // namespace
 
 FlowMark mark_flow(const Scene& scene) {
     FlowMark mark;
@@ -97,9 +97,9 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
         }
     }
     summary["openings"] = openings;
-    summary["gauge_pressure_ratio"] = nullptr;   // of the pressures on both sides of a lesion, which decks cannot mark yet
+    summary["gauge_pressure_ratio"] = nullptr;   // of a vessel with a lesion only (vessel_results.h)
     summary["ffr"] = {{"lesion", nullptr},
-                      {"reason", scene.config.aorta.pressure ? "no lesion is marked in the deck" : "the deck gives no aortic pressure"}};
+                      {"reason", scene.config.aorta.pressure ? "a shape has no lesions" : "the deck gives no aortic pressure"}};
     summary["mass_imbalance_percent"] = mass_imbalance_percent(from, to);
     const BulkValues bulk = bulk_values(scene);
     summary["largest_speed_m_per_s"] = bulk.largest_speed;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "patency/analysis/sample.h"
 #include "patency/base/errors.h"
+#include "patency/stages/scene_sampling.h"
 
 namespace patency {
 
@@ -18,21 +18,16 @@ constexpr double rows_per_run = 2000;
 
 std::string flow_unit(const Scene& scene) { return scene.numerics.planar ? "m2_per_s" : "m3_per_s"; }
 
-double reach_of(const Scene& scene) { return 2 * scene.numerics.smoothing_ratio * scene.numerics.spacing; }
-
 /// On the wall counts as inside: profiles end there.
 bool is_in_blood(const Scene& scene, const Vec3& x) {
     return scene.lumen.distance.value(x) <= 1e-6 * scene.numerics.spacing && opening_beyond(scene.lumen, x) < 0;
 }
 
 std::vector<FlowSample> sample_scene(const Scene& scene, std::span<const Vec3> places) {
-    const SignedDistance& distance = scene.lumen.distance;
-    WallHint wall{.distance = [&](const Vec3& x) { return distance.value(x); },
-                  .normal = [&](const Vec3& x) { return distance.gradient(x); },
-                  .velocity = {}};
+    const WallHint wall = wall_hint(scene);
     // A wall that slides or lets the blood slip says nothing of the velocity beside it that is worth the trouble.
-    const bool sticks = scene.config.wall.slip == deck::Slip::no_slip && scene.config.wall.velocity.empty();
-    return sample_flow(scene.fluid, *scene.frame, places, reach_of(scene), scene.numerics.planar, sticks ? &wall : nullptr);
+    return sample_flow(scene.fluid, *scene.frame, places, sampling_reach(scene), scene.numerics.planar,
+                       wall_sticks(scene) ? &wall : nullptr);
 }
 
 std::vector<Vec3> places_of(const Scene& scene, const deck::LineProfile& profile) {
@@ -46,8 +41,6 @@ std::vector<Vec3> places_of(const Scene& scene, const deck::LineProfile& profile
 FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
     const deck::Case& config = scene.config;
     row_interval_ = config.numerics.duration / rows_per_run;
-    window_start_ = window_start(config);
-    if (window_start_ <= 0) window_ = row_mark_;
     if (!scene.ends.empty()) {
         RecordedTable waveforms{"waveforms", {"time_s"}};
         for (const OpenEnd& end : scene.ends) {
@@ -68,7 +61,6 @@ FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
         tables_.push_back(std::move(probes));
     }
     first_profile_ = tables_.size();
-    exact_times_.push_back(window_start_);
     for (const deck::LineProfile& profile : config.output.profiles) {
         if (places_of(scene, profile).empty())
             throw DeckError(fmt::format("output.profiles: no point of {} lies in the blood", profile.name));
@@ -80,9 +72,7 @@ FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
     std::sort(exact_times_.begin(), exact_times_.end());
 }
 
-void FlowRecorder::observe(const Scene& scene) {
-    if (!window_ && scene.time >= window_start_) window_ = mark_flow(scene);
-    const bool is_end = scene.time >= scene.config.numerics.duration;
+void FlowRecorder::observe(const Scene& scene, bool is_end) {
     // Counted in whole intervals, so that an interrupted run writes the same rows.
     if (std::floor(scene.time / row_interval_) > std::floor(last_row_ / row_interval_) || is_end) {
         write_waveforms(scene);
@@ -135,7 +125,6 @@ void FlowRecorder::write_profile(const Scene& scene, std::size_t k) {
 void FlowRecorder::restore(const State& state) {
     last_row_ = state.last_row;
     row_mark_ = state.row_mark;
-    window_ = state.window;
 }
 
 }  // namespace patency

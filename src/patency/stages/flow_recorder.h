@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records a flow while it goes on: waveforms at openings, probes, profiles, and the mark from which means are taken.
+// Records a flow while it goes on: waveforms at openings, probes, profiles.
 // Rows go to whoever takes them; knows no files.
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,20 +27,17 @@ public:
     /// Takes a row of the table of that index.
     std::function<void(std::size_t table, std::span<const double>)> write_row;
 
-    /// Times that steps must end at: profiles, and where the means begin [s].
+    /// Times that steps must end at: profiles [s].
     const std::vector<double>& exact_times() const { return exact_times_; }
-    /// To be called after every step.
-    void observe(const Scene& scene);
-    /// Where the means begin; the last state while that is still ahead.
-    FlowMark window(const Scene& scene) const { return window_ ? *window_ : mark_flow(scene); }
+    /// To be called after every step; is_end: there is no other.
+    void observe(const Scene& scene, bool is_end);
 
-    /// The state, for checkpoints: rows written, the marks.
+    /// The state, for checkpoints: rows written, the mark of the last.
     struct State {
         double last_row = 0;
         FlowMark row_mark;
-        std::optional<FlowMark> window;
     };
-    State state() const { return {last_row_, row_mark_, window_}; }
+    State state() const { return {last_row_, row_mark_}; }
     void restore(const State& state);
 
 private:
@@ -51,10 +47,9 @@ private:
 
     std::vector<RecordedTable> tables_;
     std::size_t first_profile_ = 0;
-    double row_interval_ = 0, last_row_ = 0, window_start_ = 0;
+    double row_interval_ = 0, last_row_ = 0;
     std::vector<double> exact_times_;
     FlowMark row_mark_;
-    std::optional<FlowMark> window_;
 };
 
 }  // namespace patency

@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
 #include "patency/physics/open_ends/profile.h"
+#include "patency/stages/estimated_field.h"
 #include "patency/stages/lumen_of_case.h"
 
 namespace patency {
@@ -59,10 +61,14 @@ VectorField womersley_field(const Scene& scene) {
     return [axis, radius, now = profile.at(0)](const Vec3& x) { return now(std::min(axis.radial(x) / radius, 1.0)) * axis.direction; };
 }
 
+std::shared_ptr<const EstimatedField> estimated_field(const Scene& scene) {
+    return std::make_shared<const EstimatedField>(*scene.vessel, *scene.estimate);
+}
+
 VectorField velocity_field(const Scene& scene) {
     const deck::Initial& initial = scene.config.initial;
     const double speed = initial.speed.value_or(0);
-    switch (initial.velocity) {
+    switch (scene.config.initial_velocity()) {
         case deck::InitialVelocity::rest: return [](const Vec3&) { return Vec3{}; };
         case deck::InitialVelocity::plug: {
             const auto axis = find_straight_axis(scene.config.geometry);
@@ -86,6 +92,16 @@ VectorField velocity_field(const Scene& scene) {
             };
         }
         case deck::InitialVelocity::womersley: return womersley_field(scene);
+        case deck::InitialVelocity::estimate: {
+            // A pulse starts where its inflow does.
+            double now = 0, mean = 0;
+            for (const EndLaw& law : scene.laws)
+                if (law.prescribes_flow()) now += law.signal(0), mean += law.signal.waveform.mean();
+            const double share = std::abs(mean) > 0 ? now / mean : 1;
+            return [=, &scene, field = estimated_field(scene)](const Vec3& x) {
+                return share * field->at(x, -scene.lumen.distance.value(x)).velocity;
+            };
+        }
     }
     return {};
 }
@@ -115,7 +131,8 @@ PressureField linear_pressure(const Scene& scene) {
     }
     const double a = axis.outline.front().radius;
     double slope = 0;
-    if (scene.config.initial.velocity != deck::InitialVelocity::rest && scene.config.initial.velocity != deck::InitialVelocity::plug)
+    const auto velocity = scene.config.initial_velocity();
+    if (velocity != deck::InitialVelocity::rest && velocity != deck::InitialVelocity::plug)
         slope = -scene.config.initial.speed.value_or(0) * scene.material.viscosity * (axis.section == Section::planar ? 3 : 8) / (a * a);
     if (!std::isnan(first) && !std::isnan(last)) slope = (last - first) / axis.length;
     else if (std::isnan(first)) first = last - slope * axis.length;
@@ -123,8 +140,12 @@ PressureField linear_pressure(const Scene& scene) {
 }
 
 PressureField pressure_field(const Scene& scene) {
-    if (scene.config.initial.velocity == deck::InitialVelocity::taylor_green) return taylor_green_pressure(scene);
-    if (scene.config.initial.pressure == deck::InitialPressure::linear) return linear_pressure(scene);
+    if (scene.config.initial_velocity() == deck::InitialVelocity::taylor_green) return taylor_green_pressure(scene);
+    if (scene.config.initial_pressure() == deck::InitialPressure::linear) return linear_pressure(scene);
+    if (scene.config.initial_pressure() == deck::InitialPressure::estimate) {
+        const auto field = estimated_field(scene);
+        return {[=](const Vec3& x) { return field->at(x, 0).pressure; }, [=](const Vec3& x) { return field->at(x, 0).pressure_gradient; }};
+    }
     const double level = scene.reference_pressure;   // zero above the level: no shock where nothing drives
     return {[=](const Vec3&) { return level; }, [](const Vec3&) { return Vec3{}; }};
 }

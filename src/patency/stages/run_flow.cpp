@@ -26,11 +26,15 @@
 #include "patency/stages/flow.h"
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_recorder.h"
+#include "patency/stages/flow_window.h"
+#include "patency/stages/vessel_results.h"
 
 namespace patency {
 
 namespace {
 
+// Instants that the means along a vessel are made of: a steady flow only trembles, a pulse has its form.
+constexpr int steady_instants = 5, periodic_instants = 40;
 constexpr std::size_t most_offenders = 1000;   // of a run that diverged: enough to see where
 
 /// Wall and processor time since it was made.
@@ -92,7 +96,13 @@ private:
             scene_ = build_scene(config_);
         }
         recorder_.emplace(*scene_);
-        if (reader) read_recorder(*reader, *recorder_);
+        window_.emplace(*scene_);
+        if (scene_->vessel) vessel_.emplace(*scene_);
+        if (reader) {
+            read_recorder(*reader, *recorder_);
+            read_window(*reader, *window_);
+            if (vessel_) read_vessel_recorder(*reader, *vessel_);
+        }
 
         const double now = scene_->time;
         for (const RecordedTable& table : recorder_->tables()) {
@@ -116,23 +126,58 @@ private:
 
     Outcome advance_to_end() {
         if (!is_resumed_ && config_.output.interval) write_frame();
-        FlowRun run{.until = config_.numerics.duration, .interrupted = stage_.interrupted, .exact_times = exact_times()};
+        FlowRun run{.until = config_.numerics.duration, .exact_times = exact_times()};
+        run.interrupted = [this] { return is_at_end() || (stage_.interrupted && stage_.interrupted()); };
         run.observe = [this](const Scene&, const FlowStep&) { observe(); };
         advance(*scene_, run);
         write_checkpoint();
-        if (scene_->time < run.until) {
+        if (!is_at_end()) {
             say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", scene_->time));
             return Outcome::interrupted;
         }
         if (stage_.progress) stage_.progress->finish(progress());
-        write_summary(stage_.folder.file("summary.json"), make_summary(*scene_, recorder_->window(*scene_)));
+        write_results();
         write_summary(stage_.folder.file("timing.json"), make_timing());
         say(fmt::format("done: {} acoustic steps in {:.1f} s", scene_->acoustic_steps - steps_before_, watch_.wall() - build_wall_));
-        return Outcome::done;
+        return window_->is_watched() && !window_->is_settled() ? Outcome::unsettled : Outcome::done;
+    }
+
+    bool is_at_end() const { return scene_->time >= window_->end(); }
+
+    void write_results() {
+        const FlowMark from = window_->begin().value(), to = mark_flow(*scene_);
+        nlohmann::ordered_json summary = make_summary(*scene_, from);
+        if (window_->is_watched())
+            summary["convergence"] = {{"is_converged", window_->is_settled()},
+                                      {"change_percent", window_->change_percent()},
+                                      {"tolerance_percent", config_.numerics.convergence->tolerance_percent},
+                                      {"window_s", window_->length()}};
+        if (vessel_) {
+            std::vector<double> pressures;
+            for (std::size_t k = 0; k < scene_->ends.size(); ++k) pressures.push_back(mean_between(from, to, k, scene_->ends[k].area).pressure);
+            const std::string& inlet = scene_->vessel->openings.front().opening.name;
+            double at_inlet = 0, lowest = INFINITY;
+            for (std::size_t k = 0; k < pressures.size(); ++k)
+                (scene_->ends[k].name == inlet ? at_inlet : lowest) = scene_->ends[k].name == inlet ? pressures[k] : std::min(lowest, pressures[k]);
+            const VesselFlow flow = evaluate_vessel(*scene_, *vessel_, at_inlet, lowest);
+            add_vessel_summary(summary, *scene_, *vessel_, flow);
+            write_vessel_files(stage_.folder, *scene_, *vessel_, flow);
+        }
+        expect_finite(summary, "");
+        write_summary(stage_.folder.file("summary.json"), summary);
+    }
+
+    /// An instant of the means along the vessel is due: evenly over the window, the last at its end.
+    bool is_instant_due() const {
+        if (!vessel_ || !window_->begin()) return false;
+        const double begin = window_->begin()->time, length = window_->end() - begin;
+        const int wanted = config_.about.mode == deck::Mode::periodic ? periodic_instants : steady_instants;
+        return double(vessel_->instants()) < std::floor((scene_->time - begin) / length * wanted + 1e-9);
     }
 
     std::vector<double> exact_times() const {
         std::vector<double> times = recorder_->exact_times();
+        times.insert(times.end(), window_->exact_times().begin(), window_->exact_times().end());
         if (config_.output.interval)
             for (double n = 1; n * *config_.output.interval < config_.numerics.duration; ++n) times.push_back(n * *config_.output.interval);
         std::sort(times.begin(), times.end());
@@ -140,8 +185,10 @@ private:
     }
 
     void observe() {
-        recorder_->observe(*scene_);
-        const bool is_end = scene_->time >= config_.numerics.duration;
+        window_->observe(*scene_);
+        const bool is_end = is_at_end();
+        recorder_->observe(*scene_, is_end);
+        if (is_instant_due()) vessel_->sample(*scene_);
         const auto& interval = config_.output.interval;
         if (is_end || (interval && scene_->time >= double(frames_->size()) * *interval)) write_frame();
         // Checkpoints lie between steps and clip none: when they are written changes no bit.
@@ -160,7 +207,7 @@ private:
     }
 
     void write_checkpoint() {
-        write_flow_checkpoint(checkpoint_, origin_, *scene_, *recorder_);
+        write_flow_checkpoint(checkpoint_, origin_, *scene_, *recorder_, *window_, vessel_ ? &*vessel_ : nullptr);
         last_checkpoint_ = scene_->time;
         last_checkpoint_wall_ = watch_.wall();
     }
@@ -168,7 +215,7 @@ private:
     ProgressState progress() const {
         double out = 0;
         for (const OpenEnd& end : scene_->ends) out += end.flow;
-        return {.stage = "flow", .fraction = scene_->time / config_.numerics.duration, .time = scene_->time, .step = scene_->acoustic_steps,
+        return {.stage = "flow", .fraction = scene_->time / window_->end(), .time = scene_->time, .step = scene_->acoustic_steps,
                 .net_inflow = -out};
     }
 
@@ -211,6 +258,8 @@ private:
     Stopwatch watch_;
     std::unique_ptr<Scene> scene_;
     std::optional<FlowRecorder> recorder_;
+    std::optional<FlowWindow> window_;
+    std::optional<VesselRecorder> vessel_;   // of a scene with a vessel
     std::vector<CsvWriter> tables_;
     std::optional<PvdWriter> frames_;
     bool is_resumed_ = false;

@@ -21,7 +21,11 @@ struct FlowStage {
     double wall_between_checkpoints = 300;         ///< where the deck has no checkpoint_interval [s of wall time]
 };
 
-enum class Outcome { done, interrupted };
+enum class Outcome {
+    done,
+    unsettled,   ///< results are there, but the flow had not settled at the end of its duration
+    interrupted
+};
 
 /// Goes on where the folder's checkpoint of a flow stands, else begins (the caller clears the folder to begin anew). The
 /// results have the same bits either way, and for any number of threads. An interruption leaves a checkpoint and no

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "patency/bodies/fluid.h"
@@ -14,6 +15,7 @@
 #include "patency/search/cells.h"
 #include "patency/shape/lumen.h"
 #include "patency/stages/end_law.h"
+#include "patency/stages/estimate.h"
 
 namespace patency {
 
@@ -24,6 +26,8 @@ struct Scene {
 
     deck::Case config;
     Lumen lumen{.distance = everywhere(), .openings = {}, .volume = 0, .wall_area = 0, .bounds = {}};
+    std::optional<Vessel> vessel{};       ///< followed; of surfaces and networks
+    std::optional<Estimate> estimate{};   ///< of the vessel
     std::unique_ptr<Frame> frame;
     FluidParticles fluid;
     WallParticles wall;

@@ -89,7 +89,7 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     }
     for (const auto& [name, velocity] : config.wall.velocity) expected.speed = std::max(expected.speed, norm(velocity));
     if (config.initial.speed) {
-        const bool is_parabola = config.initial.velocity == deck::InitialVelocity::parabola;
+        const bool is_parabola = config.initial_velocity() == deck::InitialVelocity::parabola;
         expected.speed = std::max(expected.speed, std::abs(*config.initial.speed) * (is_parabola ? developed : 1.0));
     }
     if (config.numerics.reference_speed) expected.speed = *config.numerics.reference_speed;
@@ -103,6 +103,19 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     const bool is_fixed = config.numerics.pressure_reference == deck::PressureReference::fixed;
     expected.pressure_range = std::max(driving, is_fixed ? offset + resistance * inflow : 0.0) + loss;
     return expected;
+}
+
+void expect_estimate(Expected& expected, const deck::Case& config, const EstimatedField& field, std::span<const EndLaw> laws,
+                     const FluidMaterial& material) {
+    double pulse = 1;   // largest over mean of what drives
+    for (const EndLaw& law : laws) {
+        const double mean = law.signal.waveform.mean();
+        if (law.outlet || !(std::abs(mean) > 0)) continue;
+        const auto [low, high] = range_of(config, law.signal);
+        pulse = std::max(pulse, std::max(-low, high) / std::abs(mean));
+    }
+    if (!config.numerics.reference_speed) expected.speed = pulse * field.largest_speed();
+    expected.pressure_range = pulse * pulse * field.pressure_range() + 0.5 * material.density * expected.speed * expected.speed;
 }
 
 double choose_sound_speed(const deck::Case& config, const Lumen& lumen, const Expected& expected, const FluidMaterial& material) {

@@ -60,7 +60,7 @@ void measure_poiseuille(Scene& scene, const RunContext& context, RunData& data) 
     const double unit = flow.gap * flow.gap * flow.density / flow.viscosity;   // d^2 / nu [s]
     put_number(data, "peak", plane_poiseuille_peak(flow));
     put_number(data, "gap", flow.gap);
-    if (scene.config.initial.velocity == deck::InitialVelocity::rest) {
+    if (scene.config.initial_velocity() == deck::InitialVelocity::rest) {
         for (const double time : startup_times) {
             run_until(scene, context, time * unit);
             ProfileFit fit = make_plane_fit(scene);

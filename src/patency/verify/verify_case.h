@@ -76,5 +76,6 @@ std::vector<VerifyCase> pipe_cases();        // pipe, womersley
 std::vector<VerifyCase> windkessel_cases();  // windkessel
 std::vector<VerifyCase> operator_cases();    // lattice_operators
 std::vector<VerifyCase> nozzle_cases();      // fda_nozzle
+std::vector<VerifyCase> coronary_cases();    // coronary_bifurcation
 
 }  // namespace patency

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/estimated_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "patency/base/errors.h"
+
+namespace patency {
+
+EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
+    const VesselAlong& along = *vessel.along;
+    lowest_ = highest_ = estimate.flow.inlet_pressure;
+    for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
+        const Branch& branch = along.lines.branches[b];
+        const TreeBranch& tree = estimate.tree.branches[b];
+        const auto& pressure = estimate.flow.pressure[b];
+        const auto& points = along.lines.lines[branch.line].points;
+        const std::size_t first = branch.last + 1 - tree.arc.size();   // a branch begins where its parent ends
+        for (std::size_t k = 0; k < tree.arc.size(); ++k) {
+            const CentrelinePoint& p = points[first + k];
+            const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, tree.arc.size() - 1);
+            const double mean = estimate.flow.flow[b] / tree.area[k];
+            const double slope = (pressure[after] - pressure[before]) / (tree.arc[after] - tree.arc[before]);
+            stations_.push_back({p.place, p.tangent, p.radius, mean, pressure[k], slope});
+            largest_speed_ = std::max(largest_speed_, 2 * std::abs(mean));
+            lowest_ = std::min(lowest_, pressure[k]), highest_ = std::max(highest_, pressure[k]);
+        }
+    }
+
+    Vec3 high{-1e9, -1e9, -1e9};
+    low_ = {1e9, 1e9, 1e9};
+    for (const Station& s : stations_) {
+        low_ = {std::min(low_.x, s.place.x), std::min(low_.y, s.place.y), std::min(low_.z, s.place.z)};
+        high = {std::max(high.x, s.place.x), std::max(high.y, s.place.y), std::max(high.z, s.place.z)};
+        box_ = std::max(box_, 2 * s.radius);
+    }
+    boxes_ = box_of(high);
+    for (long& n : boxes_) ++n;
+    inside_.resize(std::size_t(boxes_[0] * boxes_[1] * boxes_[2]));
+    for (std::size_t n = 0; n < stations_.size(); ++n) {
+        const auto [i, j, k] = box_of(stations_[n].place);
+        inside_[std::size_t(i + boxes_[0] * (j + boxes_[1] * k))].push_back(std::uint32_t(n));
+    }
+}
+
+std::array<long, 3> EstimatedField::box_of(const Vec3& x) const {
+    const Vec3 e = (1 / box_) * (x - low_);
+    return {long(std::floor(e.x)), long(std::floor(e.y)), long(std::floor(e.z))};
+}
+
+const std::vector<std::uint32_t>* EstimatedField::stations_in(long i, long j, long k) const {
+    if (i < 0 || j < 0 || k < 0 || i >= boxes_[0] || j >= boxes_[1] || k >= boxes_[2]) return nullptr;
+    return &inside_[std::size_t(i + boxes_[0] * (j + boxes_[1] * k))];
+}
+
+// Nearest in radii: beside a wide vessel a narrow one that is as far away is not the one that holds the place.
+std::size_t EstimatedField::nearest(const Vec3& x) const {
+    std::size_t found = stations_.size();
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](std::uint32_t n) {
+        const Station& s = stations_[n];
+        const Vec3 e = x - s.place;
+        const double distance = dot(e, e) / (s.radius * s.radius);
+        if (distance < least) least = distance, found = n;
+    };
+    const auto [i, j, k] = box_of(x);
+    for (long c = k - 1; c <= k + 1; ++c)
+        for (long b = j - 1; b <= j + 1; ++b)
+            for (long a = i - 1; a <= i + 1; ++a)
+                if (const auto* box = stations_in(a, b, c))
+                    for (std::uint32_t n : *box) consider(n);
+    if (found == stations_.size())
+        for (std::size_t n = 0; n < stations_.size(); ++n) consider(std::uint32_t(n));
+    return found;
+}
+
+EstimatedField::Value EstimatedField::at(const Vec3& x, double depth) const {
+    const Station& s = stations_[nearest(x)];
+    const double share = 1 - std::clamp(depth / s.radius, 0.0, 1.0);   // 1 at the wall
+    // The place may lie between two stations: their pressures join.
+    const double ahead = dot(x - s.place, s.tangent);
+    const double reach = 0.5 * s.radius;   // stations are no farther apart
+    return {2 * s.mean_velocity * (1 - share * share) * s.tangent, s.pressure + std::clamp(ahead, -reach, reach) * s.slope,
+            std::abs(ahead) < reach ? s.slope * s.tangent : Vec3{}};
+}
+
+}   // namespace patency

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a scene's blood is sampled between its particles: how far, and where its wall is.
+#pragma once
+
+#include "patency/analysis/sample.h"
+#include "patency/stages/scene.h"
+
+namespace patency {
+
+/// Particles within this far of a place take part in its fit [m]: the kernel's support.
+double sampling_reach(const Scene& scene);
+
+/// Distance and normal of the scene's wall, which must outlive the hint. The wall is at rest.
+WallHint wall_hint(const Scene& scene);
+
+/// Whether the wall holds the blood that touches it, so that samples near it may count on its rest.
+bool wall_sticks(const Scene& scene);
+
+}   // namespace patency

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/vessel_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/base/parallel.h"
+#include "patency/stages/scene_sampling.h"
+
+namespace patency {
+
+namespace {
+
+constexpr double station_distance = 0.5e-3;   // m; half of the shortest lesion's millimetre
+
+std::vector<Vec3> point_normals(const Surface& surface) {
+    std::vector<Vec3> normals(surface.points.size());
+    for (const Triangle& t : surface.triangles)
+        for (std::uint32_t p : t) normals[p] += area_vector(surface, t);
+    for (Vec3& n : normals) n = norm(n) > 0 ? normalized(n) : Vec3{};
+    return normals;
+}
+
+}   // namespace
+
+std::vector<VesselStation> make_stations(const Vessel& vessel, double spacing) {
+    const VesselAlong& along = vessel.along.value();
+    const double distance = std::max(station_distance, 2 * spacing);
+    std::vector<VesselStation> stations;
+    for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
+        const Branch& branch = along.lines.branches[b];
+        double next = -1;
+        for (std::size_t k = branch.first; k <= branch.last; ++k) {
+            const CentrelinePoint& point = along.lines.point(branch, k);
+            const CrossSection& section = along.sections[branch.line][k];
+            if (!section.is_closed || !section.holds_place || section.is_shared || point.arc < next) continue;
+            stations.push_back({b, branch.line, point.arc, {section.place, section.normal, point.radius}, section.area});
+            next = point.arc + distance * (1 - 1e-9);
+        }
+    }
+    return stations;
+}
+
+VesselWall make_vessel_wall(const Vessel& vessel) {
+    const Surface& surface = vessel.checked.surface;
+    std::vector<char> is_cap(surface.triangles.size(), 0);
+    for (const SurfaceOpening& opening : vessel.openings)
+        for (std::uint32_t t : opening.triangles) is_cap[t] = 1;
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
+        if (!is_cap[t]) kept.push_back(t);
+    VesselWall wall{part_of(surface, kept), {}};
+    wall.places = {wall.surface.points, point_normals(wall.surface)};
+    return wall;
+}
+
+VesselRecorder::VesselRecorder(const Scene& scene)
+    : stations_(make_stations(*scene.vessel, scene.numerics.spacing)), wall_(make_vessel_wall(*scene.vessel)) {
+    const WallHint hint = wall_hint(scene);
+    grids_.resize(stations_.size());
+    for_each_task(stations_.size(), [&](std::size_t k) { grids_[k] = make_section_grid(stations_[k].plane, hint); });
+    // A plane that runs into another vessel measures both.
+    for (std::size_t k = stations_.size(); k-- > 0;)
+        if (!grids_[k].closed || grids_[k].place.empty()) {
+            grids_.erase(grids_.begin() + std::ptrdiff_t(k));
+            stations_.erase(stations_.begin() + std::ptrdiff_t(k));
+        }
+}
+
+void VesselRecorder::sample(const Scene& scene) {
+    const WallHint hint = wall_hint(scene);
+    const double reach = sampling_reach(scene), mu = scene.material.viscosity;
+    flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint), scene.reference_pressure);
+    const auto constant = [mu](double) { return mu; };
+    const WallFlow at_wall = flow_at_wall(scene.fluid, *scene.frame, wall_.places, reach, hint,
+                                          scene.material.viscosity_at ? scene.material.viscosity_at : constant);
+    shear_.add(at_wall.shear_stress, 1);
+    wall_pressure_.resize(at_wall.pressure.size(), 0);
+    for (std::size_t k = 0; k < wall_pressure_.size(); ++k) wall_pressure_[k] += at_wall.pressure[k] + scene.reference_pressure;
+}
+
+std::vector<double> VesselRecorder::wall_pressure() const {
+    std::vector<double> mean = wall_pressure_;
+    for (double& p : mean) p /= double(instants());
+    return mean;
+}
+
+void VesselRecorder::restore(const State& state) {
+    flows_.restore(state.flows);
+    shear_.restore(state.shear);
+    wall_pressure_ = state.pressure;
+}
+
+}   // namespace patency

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference paper's bifurcation against finite volumes: flows, section pressures, peaks, wall shear stress.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "patency/base/errors.h"
+#include "patency/stages/flow.h"
+#include "patency/stages/flow_window.h"
+#include "patency/stages/scene_sampling.h"
+#include "patency/stages/vessel_recorder.h"
+#include "patency/verify/sampling_of_scene.h"
+
+namespace patency {
+
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr int instants = 5;         // of the last window
+constexpr int around = 24;          // places on the wall of a section
+constexpr double least_wss = 1;     // Pa: below, the absolute error counts
+
+/// What finite volumes say of a section.
+struct Section {
+    std::string branch;
+    double arc;   // m, along the network's curve
+    SectionPlane plane;
+    double area, flow, pressure, peak, wss;
+};
+
+std::vector<Section> read_sections(const std::filesystem::path& reference) {
+    const auto path = reference / "../../reference/coronary_bifurcation/finite_volume_before.json";
+    std::ifstream file(path);
+    if (!file) throw FileError(fmt::format("cannot read {}, the finite-volume solution", path.string()));
+    const auto json = nlohmann::json::parse(file);
+    std::vector<Section> sections;
+    const auto vec = [](const nlohmann::json& v) { return Vec3{v[0], v[1], v[2]}; };
+    for (const auto& [branch, list] : json.at("sections").items())
+        for (const auto& s : list) {
+            const double area = mm * mm * s.at("area_mm2").get<double>();
+            sections.push_back({branch,
+                                mm * s.at("arc_mm").get<double>(),
+                                {mm * vec(s.at("centre_mm")), vec(s.at("normal")), std::sqrt(area / std::numbers::pi)},
+                                area,
+                                s.at("flow_m3_per_s"),
+                                s.at("mean_pressure_pa"),
+                                s.at("peak_velocity_m_per_s"),
+                                s.at("mean_wss_pa")});
+        }
+    return sections;
+}
+
+/// Places where rays from the middle of a section meet its wall, and how much of the outline each stands for.
+struct Ring {
+    WallPlaces places;
+    std::vector<double> weight;
+};
+Ring ring_around(const SectionPlane& plane, const WallHint& wall) {
+    const Vec3 other = std::abs(plane.normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 a = normalized(cross(plane.normal, other)), b = cross(plane.normal, a);
+    Ring ring;
+    for (int k = 0; k < around; ++k) {
+        const double angle = 2 * std::numbers::pi * k / around;
+        const Vec3 ray = std::cos(angle) * a + std::sin(angle) * b;
+        double r = 0;
+        for (int step = 0; step < 60; ++step) r -= wall.distance(plane.centre + r * ray);   // never farther than the wall is
+        ring.places.position.push_back(plane.centre + r * ray);
+        ring.places.normal.push_back(wall.normal(ring.places.position.back()));
+    }
+    for (int k = 0; k < around; ++k) {
+        const auto& x = ring.places.position;
+        ring.weight.push_back(0.5 * (norm(x[std::size_t((k + 1) % around)] - x[std::size_t(k)]) +
+                                     norm(x[std::size_t(k)] - x[std::size_t((k + around - 1) % around)])));
+    }
+    return ring;
+}
+
+class BifurcationMeasure {
+public:
+    BifurcationMeasure(const Scene& scene, std::vector<Section> sections) : sections_(std::move(sections)), hint_(wall_hint(scene)) {
+        for (const Section& s : sections_) {
+            grids_.push_back(make_section_grid(s.plane, hint_));
+            rings_.push_back(ring_around(s.plane, hint_));
+        }
+        for (const Ring& ring : rings_) {
+            all_.position.insert(all_.position.end(), ring.places.position.begin(), ring.places.position.end());
+            all_.normal.insert(all_.normal.end(), ring.places.normal.begin(), ring.places.normal.end());
+        }
+    }
+
+    void sample(const Scene& scene) {
+        const double reach = sampling_reach(scene), mu = scene.material.viscosity;
+        flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint_), scene.reference_pressure);
+        shear_.add(flow_at_wall(scene.fluid, *scene.frame, all_, reach, hint_, [mu](double) { return mu; }).shear_stress, 1);
+    }
+
+    std::size_t count() const { return flows_.instants(); }
+
+    void write(RunData& data) const {
+        const auto means = flows_.mean();
+        const auto shear = shear_.tawss();
+        std::size_t first = 0;
+        for (std::size_t k = 0; k < sections_.size(); ++k) {
+            data.lists["area"].push_back(means[k].area);
+            data.lists["flow"].push_back(means[k].flow);
+            data.lists["pressure"].push_back(means[k].pressure);
+            data.lists["peak"].push_back(means[k].peak_velocity);
+            double sum = 0, weight = 0;
+            for (int n = 0; n < around; ++n, ++first)
+                sum += rings_[k].weight[std::size_t(n)] * shear[first], weight += rings_[k].weight[std::size_t(n)];
+            data.lists["wss"].push_back(sum / weight);
+        }
+    }
+
+private:
+    std::vector<Section> sections_;
+    WallHint hint_;
+    std::vector<SectionGrid> grids_;
+    std::vector<Ring> rings_;
+    WallPlaces all_;
+    SectionFlowMeans flows_;
+    WallShearMeans shear_;
+};
+
+void measure_bifurcation(Scene& scene, const RunContext& context, RunData& data) {
+    BifurcationMeasure sections(scene, read_sections(context.reference));
+    FlowWindow window(scene);
+    FlowRun run{.until = scene.config.numerics.duration, .exact_times = window.exact_times()};
+    run.observe = [&](const Scene& now, const FlowStep&) {
+        if (context.watch) context.watch(now);
+        window.observe(now);
+        if (!window.begin()) return;
+        const double begin = window.begin()->time, share = (now.time - begin) / (window.end() - begin);
+        if (double(sections.count()) < std::floor(share * instants + 1e-9)) sections.sample(now);
+    };
+    run.interrupted = [&] { return scene.time >= window.end(); };
+    advance(scene, run);
+
+    sections.write(data);
+    const FlowMark to = mark_flow(scene);
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) {
+        const OpeningMean mean = mean_between(*window.begin(), to, k, scene.ends[k].area);
+        put_number(data, "flow_" + scene.ends[k].name, mean.flow);
+        put_number(data, "pressure_" + scene.ends[k].name, mean.pressure);
+        put_number(data, "velocity_" + scene.ends[k].name, mean.velocity);
+    }
+    put_number(data, "imbalance", mass_imbalance_percent(*window.begin(), to));
+    put_number(data, "acoustic_steps", double(scene.acoustic_steps));
+    put_number(data, "settled", window.is_settled());
+    put_number(data, "time", scene.time);
+}
+
+double number(const RunData& data, const std::string& name) { return data.list(name).at(0); }
+
+/// The section of a branch nearest to an arc of the network.
+std::size_t section_at(const std::vector<Section>& sections, const std::string& branch, double arc) {
+    std::size_t found = sections.size();
+    for (std::size_t k = 0; k < sections.size(); ++k)
+        if (sections[k].branch == branch && (found == sections.size() || std::abs(sections[k].arc - arc) < std::abs(sections[found].arc - arc)))
+            found = k;
+    return found;
+}
+
+struct OutletReference {
+    const char *name, *key;
+    double flow;            // finite volumes [m^3/s]
+    double paper_velocity;  // printed in the paper's table VI [m/s]
+};
+constexpr OutletReference outlets[] = {{"outlet_large", "large", 3.03084489e-6, 0.325},
+                                       {"outlet_medium", "medium", 5.63052032e-7, 0.066},
+                                       {"outlet_small", "small", 3.66060709e-7, 0.069}};
+constexpr double inflow = 3.95995756e-6, inlet_pressure = 176.49;   // finite volumes [m^3/s], [Pa]
+constexpr double proximal_arc = 13.989 * mm, throat_arc = 24 * mm, distal_arc = 33.998 * mm;
+const std::string stenosed = "anterior_descending";
+
+/// Root mean square over flows and section pressures, relative to the inlet's.
+double combined_error(const RunData& data, const std::vector<Section>& sections) {
+    double squares = 0, count = 0;
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+        const double e = (data.list("pressure")[k] - sections[k].pressure) / inlet_pressure;
+        squares += e * e, count += 1;
+    }
+    for (const OutletReference& o : outlets) {
+        const double e = (number(data, std::string("flow_") + o.name) - o.flow) / inflow;
+        squares += e * e, count += 1;
+    }
+    return 100 * std::sqrt(squares / count);
+}
+
+void bifurcation_figures(const Results& results, FigureList& figures) {
+    const auto sections = read_sections(results.reference());
+    const auto at = [&](double arc) { return section_at(sections, stenosed, arc); };
+    const auto drop = [&](const RunData& data) { return data.list("pressure")[at(proximal_arc)] - data.list("pressure")[at(distal_arc)]; };
+    for (const auto& [run, suffix, judged] : {std::tuple{"d20", "", true}, {"d30", "_d30", false}, {"d40", "_d40", false}}) {
+        const auto bar = [&, judged = judged](double value) { return judged ? std::optional<Bar>(value) : std::nullopt; };
+        const auto add = [&, run = run, suffix = suffix](const std::string& key, const std::string& unit, std::optional<Bar> limit, const std::function<double(const RunData&)>& value) {
+            figures.add({key + suffix, unit, limit}, {run}, [&, value] { return value(results[run]); });
+        };
+        for (const OutletReference& o : outlets) {
+            const std::string name = std::string("flow_") + o.name;
+            add(fmt::format("flow_error_percent_{}", o.key), "percent", bar(5),
+                [=](const RunData& d) { return 100 * std::abs(number(d, name) / o.flow - 1); });
+            add(fmt::format("flow_error_of_inlet_percent_{}", o.key), "percent", bar(1),
+                [=](const RunData& d) { return 100 * std::abs(number(d, name) - o.flow) / inflow; });
+        }
+        add("section_pressure_error_percent", "percent", bar(4), [&](const RunData& d) {
+            double worst = 0;
+            for (std::size_t k = 0; k < sections.size(); ++k)
+                worst = std::max(worst, 100 * std::abs(d.list("pressure")[k] - sections[k].pressure) / inlet_pressure);
+            return worst;
+        });
+        add("drop_error_percent", "percent", bar(5), [&](const RunData& d) {
+            const double exact = sections[at(proximal_arc)].pressure - sections[at(distal_arc)].pressure;
+            return 100 * std::abs(drop(d) / exact - 1);
+        });
+        add("throat_peak_error_percent", "percent", bar(5),
+            [&](const RunData& d) { return 100 * std::abs(d.list("peak")[at(throat_arc)] / sections[at(throat_arc)].peak - 1); });
+        add("gauge_pressure_ratio_error", "1", bar(0.02), [&](const RunData& d) {
+            return std::abs(d.list("pressure")[at(distal_arc)] / d.list("pressure")[at(proximal_arc)] - 0.4559);
+        });
+        add("mass_imbalance_percent", "percent", bar(0.2), [](const RunData& d) { return number(d, "imbalance"); });
+        add("wss_error_percent", "percent", bar(8), [&](const RunData& d) {
+            double worst = 0;
+            for (std::size_t k = 0; k < sections.size(); ++k)
+                if (sections[k].wss >= least_wss) worst = std::max(worst, 100 * std::abs(d.list("wss")[k] / sections[k].wss - 1));
+            return worst;
+        });
+        add("wss_error_pa", "Pa", bar(0.15), [&](const RunData& d) {
+            double worst = 0;
+            for (std::size_t k = 0; k < sections.size(); ++k)
+                if (sections[k].wss < least_wss) worst = std::max(worst, std::abs(d.list("wss")[k] - sections[k].wss));
+            return worst;
+        });
+        add("combined_error_percent", "percent", std::nullopt, [&](const RunData& d) { return combined_error(d, sections); });
+    }
+    // Falling errors: the worst ratio of one spacing's to the next coarser one's.
+    figures.add({"combined_error_growth", "1", Bar{1.0}}, {"d20", "d30", "d40"}, [&] {
+        const double a = combined_error(results["d40"], sections), b = combined_error(results["d30"], sections), c = combined_error(results["d20"], sections);
+        return std::max(b / a, c / b);
+    });
+    figures.add({"offset_change_percent", "percent", Bar{0.1}}, {"d40", "d40_level"}, [&] {
+        double worst = 0;
+        for (const char* list : {"flow", "peak", "wss"}) {
+            const auto &a = results["d40"].list(list), &b = results["d40_level"].list(list);
+            const double largest = *std::max_element(a.begin(), a.end());
+            for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, 100 * std::abs(a[k] - b[k]) / largest);
+        }
+        return worst;
+    });
+    figures.add({"steps_from_estimate_over_rest", "1", Bar{0.5}}, {"d40", "d40_rest"},
+                [&] { return number(results["d40"], "acoustic_steps") / number(results["d40_rest"], "acoustic_steps"); });
+    for (const OutletReference& o : outlets) {
+        const std::string name = std::string("velocity_") + o.name;
+        figures.add({fmt::format("velocity_{}", o.key), "m/s", {}}, {"d20"}, [&results, name] { return number(results["d20"], name); });
+        figures.add({fmt::format("paper_printed_velocity_{}", o.key), "m/s", {}}, {"d20"}, [&o] { return o.paper_velocity; });
+        figures.add({fmt::format("velocity_{}_re600", o.key), "m/s", {}}, {"d40_re600"}, [&results, name] { return number(results["d40_re600"], name); });
+    }
+    figures.add({"gauge_pressure_ratio", "1", {}}, {"d20"},
+                [&, at] { return results["d20"].list("pressure")[at(distal_arc)] / results["d20"].list("pressure")[at(proximal_arc)]; });
+    figures.add({"paper_printed_gauge_pressure_ratio", "1", {}}, {"d20"}, [] { return 0.45; });
+}
+
+std::vector<Picture> bifurcation_pictures(const Results& results) {
+    const auto sections = read_sections(results.reference());
+    std::vector<Curve> pressure, shear;
+    const auto curve = [&](const std::string& title, bool is_line, auto value) {
+        Curve c{title, {}, {}, is_line};
+        for (std::size_t k = 0; k < sections.size(); ++k)
+            if (sections[k].branch == stenosed) c.x.push_back(1e3 * sections[k].arc), c.y.push_back(value(k));
+        return c;
+    };
+    pressure.push_back(curve("finite volumes", true, [&](std::size_t k) { return sections[k].pressure; }));
+    shear.push_back(curve("finite volumes", true, [&](std::size_t k) { return sections[k].wss; }));
+    for (const auto& [run, title] : {std::pair{"d40", "0.4 mm"}, {"d30", "0.3 mm"}, {"d20", "0.2 mm"}}) {
+        if (!results.has(run)) continue;
+        pressure.push_back(curve(title, false, [&, run = run](std::size_t k) { return results[run].list("pressure")[k]; }));
+        shear.push_back(curve(title, false, [&, run = run](std::size_t k) { return results[run].list("wss")[k]; }));
+    }
+    return {{"coronary_pressure", "Mean pressure of sections along the stenosed branch", format_plot({"arc [mm]", "p [Pa]", pressure})},
+            {"coronary_wss", "Mean wall shear stress of sections along the stenosed branch", format_plot({"arc [mm]", "WSS [Pa]", shear})}};
+}
+
+}   // namespace
+
+std::vector<VerifyCase> coronary_cases() {
+    return {{.name = "coronary_bifurcation",
+             .title = "The reference paper's bifurcation against finite volumes",
+             .level = Level::full,
+             .is_full = {},
+             .measure = measure_bifurcation,
+             .figures = bifurcation_figures,
+             .pictures = bifurcation_pictures}};
+}
+
+}   // namespace patency
