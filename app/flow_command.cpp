@@ -7,11 +7,14 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "deck_options.h"
+#include "patency/io/flow_table.h"
 #include "patency/io/hash.h"
 #include "patency/io/log_file.h"
+#include "patency/io/summary.h"
 #include "patency/stages/run_flow.h"
 
 namespace patency::app {
@@ -60,6 +63,7 @@ ExitCode run(const FlowOptions& options) {
                                                   .interrupted = [] { return caught_signal != 0; },
                                                   .log = log,
                                                   .progress = &progress});
+        if (outcome != Outcome::interrupted) fmt::print("{}", flow_table(read_summary(folder.file("summary.json"))));
         if (outcome == Outcome::done) return ExitCode::ok;
         if (outcome == Outcome::unsettled) {
             log(LogLevel::warning, "the flow had not settled at the end of numerics.duration; the results are marked, a longer duration will do");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "tests/analysis/poiseuille_tube.h"
 
@@ -34,6 +35,23 @@ TEST(WallShear, OfAParabolaIsPoiseuilles) {
         EXPECT_NEAR(dot(stress[k], tube.axis()) / exact, 1, 0.01) << k;   // with the stream
         EXPECT_NEAR(dot(stress[k], places.normal[k]) / exact, 0, 1e-12) << k;
         EXPECT_LE(norm(stress[k] - dot(stress[k], tube.axis()) * tube.axis()) / exact, 0.01) << k;
+    }
+}
+
+TEST(WallShear, NeedsNoDistancesWhereTheSurfaceHasPoints) {
+    PoiseuilleTube tube;
+    for (double x = 0; x < tube.length; x += 0.4 * tube.reach())
+        for (int k = 0; k < 16; ++k) {
+            const double angle = 2 * std::numbers::pi * k / 16;
+            tube.wall.points.push_back(tube.motion.place({x, tube.radius * std::cos(angle), tube.radius * std::sin(angle)}));
+        }
+    tube.wall.distance = [](const Vec3&) -> double { throw std::logic_error("nobody may ask"); };
+    tube.wall.normal = [](const Vec3&) -> Vec3 { throw std::logic_error("nobody may ask"); };
+    const WallPlaces places = places_around(tube, 4.5e-3, 24);
+    const WallFlow flow = flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
+    for (std::size_t k = 0; k < places.position.size(); ++k) {
+        EXPECT_NEAR(dot(flow.shear_stress[k], tube.axis()) / tube.wall_stress(3.5e-3), 1, 0.01) << k;
+        EXPECT_NEAR(flow.pressure[k], tube.pressure(places.position[k]), 1e-6) << k;
     }
 }
 

@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -196,6 +199,30 @@ TEST_P(BothPrecisions, MirroredBloodFlowsInTheMirror) {
         const Vec3 v = flow.fluid.velocity[i], u = mirrored.fluid.velocity[j];
         ASSERT_LE(norm(Vec3{v.x - u.x, v.y + u.y, v.z - u.z}), allowed);
     }
+}
+
+TEST_P(BothPrecisions, NoiseIsQuietedUpToTheLayerAtTheWall) {                                   // THEORY.md (4.9)
+    SmallFlow flow;
+    constexpr int across = 12, along = 24;
+    make_channel(flow, along, across, true, OpenEnd::Kind::pressure, OpenEnd::Kind::pressure);
+    flow.blood.viscosity = 1e-12;   // nothing but the dissipation is left
+    std::fill(flow.fluid.viscosity.begin(), flow.fluid.viscosity.end(), flow.blood.viscosity);
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> any(-0.01, 0.01);
+    for (Vec3& v : flow.fluid.velocity) v = {any(random), any(random), 0};
+    flow.fluid.velocity_gradient[0] = {{1e-12, 0, 0}, {}, {}};   // known, and nothing
+    flow.make(GetParam())->step(0, 1e-15);
+    std::array<double, across> power{}, energy{};
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+        const Vec3 &x = flow.fluid.position[i], &v = flow.fluid.velocity[i];
+        if (x.x < 4 * dp || x.x > (along - 4) * dp) continue;
+        const std::size_t layer = std::size_t(x.y / dp);
+        power[layer] -= dot(v, flow.fluid.slow_acceleration[i]), energy[layer] += dot(v, v);
+    }
+    const auto rate = [&](std::size_t layer) { return power[layer] / energy[layer]; };
+    EXPECT_LT(std::abs(rate(0)), 0.02 * rate(5));
+    EXPECT_GT(rate(1), 0.3 * rate(5));   // of its neighbours those at the wall take no part
+    EXPECT_GT(rate(2), 0.6 * rate(5));
 }
 
 TEST_P(BothPrecisions, AStepIsNoLongerThanAsked) {

@@ -102,11 +102,11 @@ Vec3 shortest(Vec3 d, const Frame& frame) {   // the short way round a periodic 
     return {wrap(d.x, side.x, frame.periodic()[0]), wrap(d.y, side.y, frame.periodic()[1]), wrap(d.z, side.z, frame.periodic()[2])};
 }
 
-/// Particles that may be near a place: those of a box around all places, in buckets of one reach. Along periodic axes there
+/// Points that may be near a place: those of a box around all places, in buckets of one reach. Along periodic axes there
 /// is one bucket.
 class Buckets {
 public:
-    Buckets(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, double reach) {
+    Buckets(std::span<const Vec3> points, const Frame& frame, std::span<const Vec3> places, double reach) {
         Vec3 low = places[0], high = places[0];
         for (const Vec3& x : places) {
             low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
@@ -121,8 +121,8 @@ public:
             scale_[a] = count_[a] / length[a];
         }
         std::vector<std::pair<std::size_t, std::uint32_t>> found;
-        for (std::uint32_t i = 0; i < fluid.size(); ++i) {
-            const Vec3 d = shortest(fluid.position[i] - middle, frame);
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            const Vec3 d = shortest(points[i] - middle, frame);
             if (std::abs(d.x) <= half.x && std::abs(d.y) <= half.y && std::abs(d.z) <= half.z)
                 found.push_back({number(cell_of(middle + d)), i});
         }
@@ -167,7 +167,9 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
                                     bool planar, const WallHint* wall) {
     std::vector<FlowSample> samples(places.size());
     if (places.empty()) return samples;
-    const Buckets buckets(fluid, frame, places, reach);
+    const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, places, reach);
+    const bool has_points = wall && !wall->points.empty();
+    const Buckets surface(has_points ? std::span<const Vec3>(wall->points) : std::span<const Vec3>(), frame, places, reach);
 #pragma omp parallel for schedule(dynamic, 4)
     for (std::size_t k = 0; k < places.size(); ++k) {
         std::vector<Datum> data;
@@ -176,7 +178,13 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
             const double q2 = dot(d, d);
             if (q2 < 1) data.push_back({d, kernel_weight(std::sqrt(q2)), fluid.velocity[i], fluid.pressure[i], true});
         });
-        if (wall && !data.empty()) add_wall(data, places[k], reach, planar, *wall);
+        if (has_points && !data.empty())
+            surface.for_each_near(places[k], [&](std::uint32_t i) {
+                const Vec3 d = shortest(wall->points[i] - places[k], frame) / reach;
+                const double weight = kernel_weight(norm(d));
+                if (weight > 0) data.push_back({d, weight, wall->velocity ? wall->velocity(wall->points[i]) : Vec3{}, 0, false});
+            });
+        else if (wall && !data.empty()) add_wall(data, places[k], reach, planar, *wall);
         samples[k] = evaluate(data, planar, reach);
     }
     return samples;

@@ -25,6 +25,9 @@ struct WallHint {
     std::function<double(const Vec3&)> distance;       ///< [m]
     std::function<Vec3(const Vec3&)> normal;
     std::function<Vec3(const Vec3&)> velocity;         ///< of the surface near a place [m/s]; empty: at rest
+    /// Points all over the surface, half of `reach` apart or less, if somebody has them [m]. Else points near each place are found
+    /// by distance and normal, which takes longer than all the rest.
+    std::vector<Vec3> points{};
 };
 
 /// Weighted least squares with a full quadratic through the particles within `reach` of each place (a linear one where

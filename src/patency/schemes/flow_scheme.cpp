@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/schemes/flow_scheme.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "patency/base/parallel.h"
@@ -89,12 +90,19 @@ private:
         for_each_index(n, [&](std::size_t i) {
             velocity_[i] = vector_record(fluid.velocity[i], T(fluid.viscosity[i] / material_.viscosity));
             const Mat3 g = arrangement_.unit() * fluid.velocity_gradient[i];
-            gradient_[0][i] = vector_record(g.x, T(arrangement_.wall_of(i) == no_wall ? 1 : 0));   // who dissipates
+            gradient_[0][i] = vector_record(g.x, T(dissipating_share(i)));
             gradient_[1][i] = vector_record(g.y, T(0));
             gradient_[2][i] = vector_record(g.z, T(0));
         });
         pressure_[n] = dummy_record<T>();
         velocity_[n] = gradient_[0][n] = gradient_[1][n] = gradient_[2][n] = zero_record<T>();
+    }
+
+    /// 0 for the layer at the wall, whose gradient is of first order, 1 from the next one on.            THEORY.md (4.9)
+    double dissipating_share(std::size_t i) const {
+        if (arrangement_.wall_of(i) == no_wall) return 1;
+        const double distance = double(arrangement_.geometry()[i].d) * arrangement_.unit() / numerics_.spacing;
+        return std::clamp(distance - 0.5, 0.0, 1.0);
     }
 
     FlowStep choose_step(double longest) const {

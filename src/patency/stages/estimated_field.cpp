@@ -23,7 +23,7 @@ EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
             const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, tree.arc.size() - 1);
             const double mean = estimate.flow.flow[b] / tree.area[k];
             const double slope = (pressure[after] - pressure[before]) / (tree.arc[after] - tree.arc[before]);
-            stations_.push_back({p.place, p.tangent, p.radius, mean, pressure[k], slope});
+            stations_.push_back({b, p.place, p.tangent, p.radius, mean, pressure[k], slope});
             largest_speed_ = std::max(largest_speed_, 2 * std::abs(mean));
             lowest_ = std::min(lowest_, pressure[k]), highest_ = std::max(highest_, pressure[k]);
         }
@@ -50,30 +50,35 @@ std::array<long, 3> EstimatedField::box_of(const Vec3& x) const {
     return {long(std::floor(e.x)), long(std::floor(e.y)), long(std::floor(e.z))};
 }
 
-const std::vector<std::uint32_t>* EstimatedField::stations_in(long i, long j, long k) const {
-    if (i < 0 || j < 0 || k < 0 || i >= boxes_[0] || j >= boxes_[1] || k >= boxes_[2]) return nullptr;
-    return &inside_[std::size_t(i + boxes_[0] * (j + boxes_[1] * k))];
+/// visit(station) for all that lie within a box of x; for all there are where there are none.
+template <class Visit>
+void EstimatedField::for_each_near(const Vec3& x, Visit visit) const {
+    const auto [i, j, k] = box_of(x);
+    bool is_any = false;
+    for (long c = std::max(0L, k - 1); c <= std::min(boxes_[2] - 1, k + 1); ++c)
+        for (long b = std::max(0L, j - 1); b <= std::min(boxes_[1] - 1, j + 1); ++b)
+            for (long a = std::max(0L, i - 1); a <= std::min(boxes_[0] - 1, i + 1); ++a)
+                for (std::uint32_t n : inside_[std::size_t(a + boxes_[0] * (b + boxes_[1] * c))]) visit(n), is_any = true;
+    if (is_any) return;
+    for (std::size_t n = 0; n < stations_.size(); ++n) visit(n);
 }
 
-// Nearest in radii: beside a wide vessel a narrow one that is as far away is not the one that holds the place.
+// Which branch is told by the power of the place to the spheres: where two tubes meet, the plane through the circle in which they
+// cut each other is the border between them, whatever their widths. Within the branch the nearest station counts: by power, a
+// tapering vessel would answer with its wider side.
 std::size_t EstimatedField::nearest(const Vec3& x) const {
-    std::size_t found = stations_.size();
-    double least = std::numeric_limits<double>::infinity();
-    const auto consider = [&](std::uint32_t n) {
-        const Station& s = stations_[n];
-        const Vec3 e = x - s.place;
-        const double distance = dot(e, e) / (s.radius * s.radius);
-        if (distance < least) least = distance, found = n;
+    const auto least_of = [&](auto distance) {
+        std::size_t found = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for_each_near(x, [&](std::size_t n) {
+            const double d = distance(stations_[n]);
+            if (d < least) least = d, found = n;
+        });
+        return found;
     };
-    const auto [i, j, k] = box_of(x);
-    for (long c = k - 1; c <= k + 1; ++c)
-        for (long b = j - 1; b <= j + 1; ++b)
-            for (long a = i - 1; a <= i + 1; ++a)
-                if (const auto* box = stations_in(a, b, c))
-                    for (std::uint32_t n : *box) consider(n);
-    if (found == stations_.size())
-        for (std::size_t n = 0; n < stations_.size(); ++n) consider(std::uint32_t(n));
-    return found;
+    const auto square = [&](const Station& s) { return dot(x - s.place, x - s.place); };
+    const std::size_t branch = stations_[least_of([&](const Station& s) { return square(s) - s.radius * s.radius; })].branch;
+    return least_of([&](const Station& s) { return s.branch == branch ? square(s) : std::numeric_limits<double>::infinity(); });
 }
 
 EstimatedField::Value EstimatedField::at(const Vec3& x, double depth) const {

@@ -29,6 +29,7 @@ public:
 
 private:
     struct Station {
+        std::size_t branch;
         Vec3 place, tangent;
         double radius;           // of the largest sphere [m]
         double mean_velocity;    // [m/s]
@@ -36,7 +37,8 @@ private:
     };
     std::size_t nearest(const Vec3& place) const;
     std::array<long, 3> box_of(const Vec3& place) const;
-    const std::vector<std::uint32_t>* stations_in(long i, long j, long k) const;
+    template <class Visit>
+    void for_each_near(const Vec3& place, Visit visit) const;
 
     std::vector<Station> stations_;
     // Stations by cubic boxes as wide as the widest vessel.

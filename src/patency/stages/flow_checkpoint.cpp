@@ -42,9 +42,11 @@ CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_h
     deck::Case alike = config;
     alike.numerics.threads = 0;
     CheckpointOrigin origin{.deck_hash = hex_text(hash_bytes(deck::format_case(alike))), .binary_hash = binary_hash, .input_hashes = {}};
+    const auto add = [&](const std::filesystem::path& file) { origin.input_hashes[file.filename().string()] = hex_text(hash_file(file)); };
+    if (config.geometry.surface) add(*config.geometry.surface);
+    if (config.geometry.network) add(*config.geometry.network);
     for (const auto& [name, opening] : config.openings)
-        if (opening.waveform && opening.waveform->file)
-            origin.input_hashes[opening.waveform->file->filename().string()] = hex_text(hash_file(*opening.waveform->file));
+        if (opening.waveform && opening.waveform->file) add(*opening.waveform->file);
     return origin;
 }
 

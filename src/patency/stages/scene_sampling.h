@@ -10,7 +10,8 @@ namespace patency {
 /// Particles within this far of a place take part in its fit [m]: the kernel's support.
 double sampling_reach(const Scene& scene);
 
-/// Distance and normal of the scene's wall, which must outlive the hint. The wall is at rest.
+/// Distance and normal of the scene's wall, which must outlive the hint, and the feet of its first layer of particles. The wall is at
+/// rest.
 WallHint wall_hint(const Scene& scene);
 
 /// Whether the wall holds the blood that touches it, so that samples near it may count on its rest.

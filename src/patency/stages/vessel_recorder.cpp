@@ -12,6 +12,7 @@ namespace patency {
 namespace {
 
 constexpr double station_distance = 0.5e-3;   // m; half of the shortest lesion's millimetre
+constexpr double area_tolerance = 0.1;        // of a section's squares against the surface's own outline
 
 std::vector<Vec3> point_normals(const Surface& surface) {
     std::vector<Vec3> normals(surface.points.size());
@@ -59,9 +60,10 @@ VesselRecorder::VesselRecorder(const Scene& scene)
     const WallHint hint = wall_hint(scene);
     grids_.resize(stations_.size());
     for_each_task(stations_.size(), [&](std::size_t k) { grids_[k] = make_section_grid(stations_[k].plane, hint); });
-    // A plane that runs into another vessel measures both.
+    // A plane that runs into another vessel measures both; so do squares that leak over the edge between two.
+    const auto is_own = [&](std::size_t k) { return grids_[k].closed && std::abs(grids_[k].total_area() / stations_[k].area - 1) < area_tolerance; };
     for (std::size_t k = stations_.size(); k-- > 0;)
-        if (!grids_[k].closed || grids_[k].place.empty()) {
+        if (!is_own(k)) {
             grids_.erase(grids_.begin() + std::ptrdiff_t(k));
             stations_.erase(stations_.begin() + std::ptrdiff_t(k));
         }

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// A vessel's flow from its estimate to its results: the start, the end when it has settled, what is told along the branches.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/io/csv.h"
+#include "patency/stages/build.h"
+#include "patency/stages/estimated_field.h"
+#include "patency/stages/flow.h"
+#include "patency/stages/flow_window.h"
+#include "patency/stages/run_flow.h"
+#include "patency/stages/scene_sampling.h"
+#include "patency/stages/vessel_results.h"
+#include "tests/stages/decks.h"
+
+namespace patency {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The bifurcation that comes with the program, coarse: the least that its lesion allows.
+deck::Case bifurcation(deck::Settings more = {}) {
+    deck::Settings settings{"numerics.spacing=0.48 mm"};
+    settings.insert(settings.end(), more.begin(), more.end());
+    return deck::read_case(fs::path(PATENCY_SOURCE_DIR) / "cases/coronary_bifurcation.yaml", settings);
+}
+
+/// One narrowed vessel, small and quick; its network lies in the folder.
+deck::Case narrowed_tube(const fs::path& folder, const std::string& numerics) {
+    fs::create_directories(folder);
+    std::ofstream(folder / "tube.json") << R"({"unit": "mm", "blend_width_k": 0.1,
+  "tubes": [{"name": "tube", "points": [[-2, 0, 0, 1.5], [3, 0, 0, 1.5], [9, 0, 0, 1.5], [14, 0, 0, 1.5]]}],
+  "ends": {"inlet": {"point": [0, 0, 0], "outward_normal": [-1, 0, 0], "radius": 1.5},
+           "outlet": {"point": [12, 0, 0], "outward_normal": [1, 0, 0], "radius": 1.5}}})";
+    std::ofstream(folder / "tube.yaml") << fmt::format(R"(version: 1
+case: {{name: tube}}
+geometry: {{network: tube.json, lesion: {{branch: tube, position: "6 mm", length: "4 mm", diameter_stenosis_percent: 40}}}}
+blood: {{density: "1060 kg/m^3", viscosity: "3.5 mPa s"}}
+openings:
+  inlet: {{type: flow, flow: "60 mL/min", profile: parabola}}
+  outlet: {{type: rcr, proximal_resistance: "1e8 Pa s/m^3", distal_resistance: "9e8 Pa s/m^3", compliance: "1e-10 m^3/Pa"}}
+numerics: {{spacing: "0.4 mm", {}}}
+)", numerics);
+    return deck::read_case(folder / "tube.yaml");
+}
+
+const Scene& scene() {
+    static const auto made = build_scene(bifurcation());
+    return *made;
+}
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+struct Folder {
+    fs::path path = fs::temp_directory_path() / fmt::format("patency_vessel_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    Folder() { fs::remove_all(path); }
+    ~Folder() { fs::remove_all(path); }
+};
+
+TEST(EstimatedField, CarriesTheEstimatesFlowThroughEverySection) {
+    const EstimatedField field(*scene().vessel, *scene().estimate);
+    const WallHint hint = wall_hint(scene());
+    for (const VesselStation& station : make_stations(*scene().vessel, 1e-3)) {
+        const SectionGrid grid = make_section_grid(station.plane, hint, 12);
+        const BranchedLines& lines = scene().vessel->along->lines;
+        const bool is_behind_a_bifurcation = station.arc < lines.start_arc(lines.branches[station.branch]) + 2 * station.plane.radius;
+        if (!grid.closed || (station.branch > 0 && is_behind_a_bifurcation)) continue;   // where fields meet they jump
+        double flow = 0;
+        for (std::size_t k = 0; k < grid.place.size(); ++k)
+            flow += grid.area[k] * dot(field.at(grid.place[k], -hint.distance(grid.place[k])).velocity, grid.normal);
+        // The parabola over the wall's distance is that of a round section; these are round to some per cent.
+        EXPECT_NEAR(flow / scene().estimate->flow.flow[station.branch], 1, 0.08) << station.branch << " at " << station.arc;
+    }
+}
+
+TEST(EstimatedField, HasThePressureOfTheStationsAndRestAtTheWall) {
+    const EstimatedField field(*scene().vessel, *scene().estimate);
+    const Estimate& e = *scene().estimate;
+    const VesselAlong& along = *scene().vessel->along;
+    for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
+        const Branch& branch = along.lines.branches[b];
+        const std::size_t middle = (branch.first + branch.last) / 2;
+        const CentrelinePoint& point = along.lines.point(branch, middle);
+        const auto& pressure = e.flow.pressure[b];   // the last stations are the branch's points
+        const double expected = pressure[pressure.size() - 1 - (branch.last - middle)];
+        EXPECT_NEAR(field.at(point.place, point.radius).pressure, expected, 1e-9);
+        EXPECT_EQ(norm(field.at(point.place, 0).velocity), 0);
+        EXPECT_GT(dot(field.at(point.place, point.radius).velocity, point.tangent), 0);
+    }
+    EXPECT_GT(field.pressure_range(), 0);
+}
+
+TEST(VesselScene, ExpectsTheSpeedOfItsNarrowestPlace) {
+    // Twice the mean of a parabola, where flow over area is largest along the estimate.
+    double largest = 0;
+    for (std::size_t b = 0; b < scene().estimate->tree.branches.size(); ++b)
+        for (double area : scene().estimate->tree.branches[b].area) largest = std::max(largest, 2 * scene().estimate->flow.flow[b] / area);
+    EXPECT_NEAR(scene().numerics.reference_speed, largest, 1e-12);
+    EXPECT_NEAR(scene().lumen.narrowest, scene().vessel->along->assessment.lesions.at(0).minimum_diameter, 1e-6);
+}
+
+TEST(VesselScene, CompliancesBeginWhereTheEstimateLeavesThem) {
+    Folder folder;
+    const auto made = build_frame(narrowed_tube(folder.path, "duration: \"1 ms\""));
+    const std::size_t k = 1;
+    ASSERT_EQ(made->ends[k].name, "outlet");
+    const Estimate& e = *made->estimate;
+    EXPECT_NEAR(made->laws[k].state[0] + 1e8 * e.opening_flows[k], e.opening_pressures[k], 1e-9);
+    EXPECT_GT(made->laws[k].state[0], 0);
+}
+
+TEST(FlowWindow, EndsARunThatHasSettled) {
+    ChannelDeck deck;
+    deck.duration = "20 ms";
+    deck.numerics = "convergence: {tolerance_percent: 1, window: \"1 ms\"}";
+    const auto made = build_scene(deck::parse_case(deck.text()));
+    FlowWindow window(*made);
+    EXPECT_TRUE(window.is_watched());
+    FlowRun run{.until = 0.02, .exact_times = window.exact_times()};
+    run.observe = [&](const Scene& now, const FlowStep&) { window.observe(now); };
+    run.interrupted = [&] { return made->time >= window.end(); };
+    advance(*made, run);
+    EXPECT_TRUE(window.is_settled());
+    EXPECT_LE(window.change_percent(), 1);
+    EXPECT_LT(made->time, 0.015);
+    EXPECT_NEAR(made->time - window.begin()->time, 1e-3, 1e-12);   // one window for the means
+    EXPECT_NEAR(std::remainder(made->time, 1e-3), 0, 1e-12);
+}
+
+TEST(FlowWindow, OneThatDoesNotSettleEndsWithItsDuration) {
+    ChannelDeck deck;
+    deck.duration = "10 ms";
+    deck.initial = "{velocity: rest}";
+    deck.numerics = "convergence: {tolerance_percent: 1e-6, window: \"2 ms\"}";
+    const auto made = build_scene(deck::parse_case(deck.text()));
+    FlowWindow window(*made);
+    FlowRun run{.until = 0.01, .exact_times = window.exact_times()};
+    run.observe = [&](const Scene& now, const FlowStep&) { window.observe(now); };
+    run.interrupted = [&] { return made->time >= window.end(); };
+    advance(*made, run);
+    EXPECT_EQ(made->time, 0.01);
+    EXPECT_FALSE(window.is_settled());
+    EXPECT_NEAR(window.begin()->time, 8e-3, 1e-12);
+}
+
+TEST(VesselResults, TellTheFlowThatIsThere) {
+    deck::Case config = bifurcation();
+    config.aorta.pressure = 12400;
+    const auto made = build_scene(config);   // its flow is the estimate's field
+    VesselRecorder recorder(*made);
+    recorder.sample(*made);
+    const Estimate& e = *made->estimate;
+    const VesselFlow flow = evaluate_vessel(*made, recorder, e.flow.inlet_pressure, 0);
+    ASSERT_GT(flow.stations.size(), 40u);
+    EXPECT_NEAR(flow.level, 12400 - e.flow.inlet_pressure, 1e-9);
+    double worst = 0;
+    for (const StationFlow& s : flow.stations) {
+        const VesselStation& station = recorder.stations()[s.station];
+        const BranchedLines& lines = made->vessel->along->lines;
+        if (station.branch > 0 && station.arc < lines.start_arc(lines.branches[station.branch]) + 2 * station.plane.radius) continue;
+        // Coarse particles do not see the bends of the field: flow and pressure of a section within some per cent.
+        EXPECT_NEAR(s.flow.flow / e.flow.flow[station.branch], 1, 0.12) << station.branch << " at " << station.arc;
+        worst = std::max(worst, std::abs(*s.ffr * 12400 - flow.level - s.flow.pressure));
+        EXPECT_EQ(s.deviation.flow, 0);   // one instant
+    }
+    EXPECT_LT(worst, 1e-9);
+    ASSERT_EQ(flow.lesions.size(), 1u);
+    EXPECT_NEAR(flow.lesions[0].drop / e.lesions[0].drop, 1, 0.1);
+    EXPECT_NEAR(*flow.lesions[0].ffr, *e.lesions[0].ffr, 0.002);
+    EXPECT_EQ(flow.worst_ffr, flow.lesions[0].ffr);
+    EXPECT_LT(*flow.lesions[0].gauge_ratio, 1);
+    EXPECT_LT(flow.lesions[0].across, fewest_across);   // and so it is marked
+}
+
+TEST(VesselResults, WithoutAnAortaThereIsNoFfr) {
+    VesselRecorder recorder(scene());
+    recorder.sample(scene());
+    nlohmann::ordered_json summary;
+    add_vessel_summary(summary, scene(), recorder, evaluate_vessel(scene(), recorder, 170, 0));
+    EXPECT_TRUE(summary["ffr"]["lesion"].is_null());
+    EXPECT_FALSE(summary["ffr"]["reason"].get<std::string>().empty());
+    EXPECT_TRUE(summary["gauge_pressure_ratio"].is_number());
+    EXPECT_TRUE(summary["lesions"][0]["is_under_resolved"]);
+    EXPECT_EQ(summary["branches"].size(), 5u);
+}
+
+TEST(VesselResults, TheMeansOfARecorderSurviveItsState) {
+    VesselRecorder recorder(scene()), other(scene());
+    recorder.sample(scene()), recorder.sample(scene());
+    other.restore(recorder.state());
+    EXPECT_EQ(other.instants(), 2u);
+    EXPECT_EQ(other.shear().tawss(), recorder.shear().tawss());
+    EXPECT_EQ(other.wall_pressure(), recorder.wall_pressure());
+    for (std::size_t k = 0; k < recorder.stations().size(); ++k)
+        EXPECT_EQ(other.flows().mean()[k].pressure, recorder.flows().mean()[k].pressure);
+}
+
+TEST(RunFlow, AVesselThatIsInterruptedGoesOnToTheSameBytes) {
+    Folder folder;
+    const deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"10 ms\", convergence: {tolerance_percent: 1e-3, window: \"5 ms\"}");
+    const std::vector<std::string> names{"summary.json", "sections.csv", "pullback.csv", "waveforms.csv", "wall.vtp", "centreline.vtp"};
+    std::map<std::string, std::string> whole;
+    const OutputFolder out(folder.path / "out");
+    const Outcome outcome = run_flow(config, {.folder = out});
+    EXPECT_EQ(outcome, Outcome::unsettled);   // it says so, and the results are there
+    for (const std::string& name : names) {
+        whole[name] = text_of(folder.path / "out" / name);
+        EXPECT_FALSE(whole[name].empty()) << name;
+    }
+    const auto summary = nlohmann::json::parse(whole["summary.json"]);
+    EXPECT_EQ(summary["instants_averaged"], 5);
+    EXPECT_FALSE(summary["convergence"]["is_converged"]);
+    EXPECT_EQ(read_csv(folder.path / "out/pullback.csv").names.front(), "arc_m");
+    out.clear();
+    // In the middle of the means and before them.
+    int steps = 0, pauses = 0;
+    while (run_flow(config, {.folder = out, .interrupted = [&] { return ++steps % 4 == 0; }}) == Outcome::interrupted) ++pauses;
+    EXPECT_GT(pauses, 1);
+    for (const std::string& name : names) EXPECT_EQ(text_of(folder.path / "out" / name), whole[name]) << name;
+}
+
+TEST(RunFlow, AnotherVesselUnderTheSameNameIsRefused) {
+    Folder folder;
+    const deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"1 ms\"");
+    const fs::path network = folder.path / "deck/tube.json";
+    const OutputFolder out(folder.path / "out");
+    EXPECT_EQ(run_flow(config, {.folder = out, .interrupted = [] { return true; }}), Outcome::interrupted);
+    std::ofstream(network, std::ios::app) << "\n";
+    EXPECT_THROW(run_flow(config, {.folder = out}), CheckpointError);
+}
+
+}   // namespace
+}   // namespace patency
