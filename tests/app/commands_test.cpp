@@ -92,6 +92,28 @@ TEST_F(Commands, flow_writes_its_results) {
         EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
 }
 
+TEST_F(Commands, run_puts_its_stages_into_folders_and_what_they_say_together) {
+    const Result result = patency(fmt::format("run {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    for (const char* name : {"summary.json", "timing.json", "log.txt", "before/summary.json", "before/waveforms.csv"})
+        EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+    EXPECT_NE(content(folder_ / "out" / "summary.json").find("\"before\""), std::string::npos);
+    // Again: it goes on from its end, and says the same.
+    const std::string first = content(folder_ / "out" / "summary.json");
+    EXPECT_EQ(patency(fmt::format("run {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out())).exit_code, 0);
+    EXPECT_EQ(content(folder_ / "out" / "summary.json"), first);
+}
+
+TEST_F(Commands, a_flow_that_does_not_settle_is_6_and_has_results) {
+    ChannelDeck deck;
+    deck.duration = "4 ms", deck.initial = "{velocity: rest}";
+    deck.numerics = "convergence: {tolerance_percent: 1e-6, window: \"0.5 ms\"}";
+    const Result result = patency(fmt::format("flow {} -o {} --threads 1", write(deck.text()), out()));
+    EXPECT_EQ(result.exit_code, 6) << result.output;
+    EXPECT_NE(result.output.find("not settled"), std::string::npos) << result.output;
+    EXPECT_NE(content(folder_ / "out" / "summary.json").find("\"is_converged\": false"), std::string::npos);
+}
+
 TEST_F(Commands, a_foreign_folder_is_7) {
     fs::create_directories(out());
     std::ofstream(folder_ / "out" / "thesis.txt") << "all of it";

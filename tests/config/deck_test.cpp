@@ -109,6 +109,18 @@ TEST(Deck, SettingsGoOverTheFile) {
     EXPECT_EQ(c.output.fields, std::vector<std::string>{"density"});
 }
 
+TEST(Deck, TheMusclesPressureIsAPressureAndComesBackFromText) {
+    const Case c = parse_case(pipe_deck, "deck", "", {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
+                                                      "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
+                                                      "myocardial_pressure: {times: [0 s, 0.3 s], values: [0 mmHg, 100 mmHg], period: 0.8 s}}"});
+    EXPECT_NEAR(c.openings.at("outlet").myocardial_pressure->values[1], 13332.2387415, 1e-6);
+    EXPECT_EQ(parse_case(format_case(c)), c);
+    EXPECT_THROW(parse_case(pipe_deck, "deck", "", {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
+                                                    "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
+                                                    "myocardial_pressure: {times: [0 s, 0.3 s], values: [0 mL/s, 100 mL/s]}}"}),
+                 DeckError);
+}
+
 TEST(Deck, SettingsReachItemsOfLists) {
     const Case c = parse_case(valid_decks[4], "deck", "", {"geometry.shape.sections.1.diameter=5 mm"});
     EXPECT_DOUBLE_EQ(c.geometry.shape->sections[1].diameter, 0.005);

@@ -63,7 +63,7 @@ openings:
   a: {type: pressure, waveform: {file: waves/p.csv}}
   b: {type: resistance, resistance: "100 mmHg s/mL", distal_pressure: "5 mmHg"}
   c: {type: rcr, proximal_resistance: "9 Wood", distal_resistance: "1e5 dyn s/cm^5", compliance: "0.01 mL/mmHg", initial_pressure: "80 mmHg"}
-  d: {type: coronary, proximal_resistance: "1e9 Pa s/m^3", distal_resistance: "3 mmHg min/mL", compliance: "1e-6 cm^5/dyn", distal_pressure: "1 kPa"}
+  d: {type: coronary, proximal_resistance: "1e9 Pa s/m^3", distal_resistance: "3 mmHg min/mL", compliance: "1e-6 cm^5/dyn", distal_pressure: "1 kPa", microvascular_resistance: "40 mmHg s/mL", myocardial_compliance: "0.02 mL/mmHg", myocardial_pressure: {times: ["0 s", "0.3 s"], values: ["0 mmHg", "90 mmHg"]}}
 aorta: {pressure: "93 mmHg"}
 bed: {state: resting, flow: "120 mL/min", murray_exponent: 2.5, venous_pressure: "6 mmHg"}
 stent:

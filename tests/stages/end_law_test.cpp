@@ -41,6 +41,23 @@ double flow_through(const Opening& opening, const std::function<Vec3(const Vec3&
     return flow;
 }
 
+TEST(EndLaw, a_coronary_bed_is_that_of_the_0d_program) {
+    // svZeroDSolver's analytic case: resistances of 100, venous pressure 0, a flow of 5: 1500 at the bed (in cgs as here in SI).
+    deck::Case config;
+    deck::Opening said;
+    said.type = deck::OpeningType::coronary;
+    said.proximal_resistance = said.microvascular_resistance = said.distal_resistance = 100;
+    said.compliance = said.myocardial_compliance = 1e-4;
+    said.myocardial_pressure.emplace();
+    said.myocardial_pressure->times = {0, 1}, said.myocardial_pressure->values = {0, 0};
+    const EndLaw law = make_end_law(tube_inlet, said, config);
+    ASSERT_TRUE(law.outlet);
+    EXPECT_NEAR(outlet_pressure(*law.outlet, make_steady_state(*law.outlet, 5), 5), 1500, 1e-9);
+    EXPECT_EQ(law.state, make_steady_state(*law.outlet, 0));   // at rest
+    said.initial_pressure = 80;
+    EXPECT_EQ(make_end_law(tube_inlet, said, config).state[0], 80);
+}
+
 TEST(EndVelocity, integrates_to_the_flow_whatever_the_profile) {
     deck::Case config;
     config.blood.density = 1060, config.blood.viscosity = 3.5e-3;

@@ -138,7 +138,7 @@ TEST(FlowWindow, EndsARunThatHasSettled) {
     EXPECT_TRUE(window.is_settled());
     EXPECT_LE(window.change_percent(), 1);
     EXPECT_LT(made->time, 0.015);
-    EXPECT_NEAR(made->time - window.begin()->time, 1e-3, 1e-12);   // one window for the means
+    EXPECT_NEAR(made->time - window.begin()->time, 2e-3, 1e-12);   // two windows for the means
     EXPECT_NEAR(std::remainder(made->time, 1e-3), 0, 1e-12);
 }
 
@@ -155,7 +155,7 @@ TEST(FlowWindow, OneThatDoesNotSettleEndsWithItsDuration) {
     advance(*made, run);
     EXPECT_EQ(made->time, 0.01);
     EXPECT_FALSE(window.is_settled());
-    EXPECT_NEAR(window.begin()->time, 8e-3, 1e-12);
+    EXPECT_NEAR(window.begin()->time, 6e-3, 1e-12);
 }
 
 TEST(VesselResults, TellTheFlowThatIsThere) {
@@ -212,7 +212,7 @@ TEST(VesselResults, TheMeansOfARecorderSurviveItsState) {
 
 TEST(RunFlow, AVesselThatIsInterruptedGoesOnToTheSameBytes) {
     Folder folder;
-    const deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"10 ms\", convergence: {tolerance_percent: 1e-3, window: \"5 ms\"}");
+    const deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"10 ms\", convergence: {tolerance_percent: 1e-3, window: \"2.5 ms\"}");
     const std::vector<std::string> names{"summary.json", "sections.csv", "pullback.csv", "waveforms.csv", "wall.vtp", "centreline.vtp"};
     std::map<std::string, std::string> whole;
     const OutputFolder out(folder.path / "out");

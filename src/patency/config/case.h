@@ -207,7 +207,10 @@ struct Opening {
     std::optional<double> resistance;                  ///< resistance: Pa s/m^3; absent: tuned to the bed
     double proximal_resistance = 0;                    ///< rcr, coronary: Pa s/m^3
     double distal_resistance = 0;                      ///< rcr, coronary: Pa s/m^3
-    double compliance = 0;                             ///< rcr, coronary: m^3/Pa
+    double compliance = 0;                             ///< rcr; coronary, of its arteries: m^3/Pa
+    double microvascular_resistance = 0;               ///< coronary: Pa s/m^3
+    double myocardial_compliance = 0;                  ///< coronary: m^3/Pa of the vessels within the heart's muscle
+    std::optional<Waveform> myocardial_pressure;       ///< coronary: Pa; of the muscle on these
     double distal_pressure = 0;                        ///< resistance, rcr, coronary: Pa
     std::optional<double> initial_pressure;            ///< rcr, coronary: Pa in the compliance at t = 0
     bool operator==(const Opening&) const = default;
@@ -275,7 +278,7 @@ struct Initial {
 /// A run that ends when its flow has settled, `duration` at the latest.
 struct Convergence {
     double tolerance_percent = 0.5;   ///< change of flows and pressures at the openings from one window to the next
-    std::optional<double> window;     ///< s; absent: a quarter of what the blood needs to pass the lumen, or the period
+    std::optional<double> window;     ///< s; absent: an eighth of what the blood needs to pass the lumen, or the period
     bool operator==(const Convergence&) const = default;
 };
 

@@ -158,6 +158,7 @@ private:
                 expect(case_.aorta.pressure.has_value(), path,
                        "needs a resistance, or aorta.pressure, from which it is tuned to the bed", {path + ".resistance", "aorta.pressure"});
             if (opening.waveform) check_waveform(*opening.waveform, path + ".waveform");
+            if (opening.myocardial_pressure) check_waveform(*opening.myocardial_pressure, path + ".myocardial_pressure");
             if (opening.profile == VelocityProfile::womersley)
                 expect(opening.waveform.has_value(), path + ".profile", "womersley needs a waveform: it is the profile of a pulse",
                        {path});

@@ -71,7 +71,8 @@ private:
     std::optional<bool> may_stand(const std::optional<Condition>& only) const { return only ? holds(only) : true; }
 
     void read_row(const Row& row, void* record) const {
-        const Scope scope = scope_below(row.key);
+        Scope scope = scope_below(row.key);
+        if (row.signal) scope.signal = row.signal;
         const Node* given = node_.find(row.key);
         const std::optional<bool> may = may_stand(row.only);
         if (!given) {

@@ -102,7 +102,9 @@ Node write_record(const Table& table, const void* record, const Scope& scope) {
     map.kind = Node::Kind::map;
     for (const Row& row : table.rows) {
         if (!may_stand(row)) continue;
-        std::optional<Node> value = row.write(record, inner);
+        Scope below = inner;
+        if (row.signal) below.signal = row.signal;
+        std::optional<Node> value = row.write(record, below);
         if (value && !(value->kind == Node::Kind::map && value->items.empty())) add_entry(map, row.key, std::move(*value));
     }
     return map;

@@ -75,6 +75,7 @@ struct Row {
     std::size_t count = 0;          ///< items of a list; 0: any number but none
     std::optional<Condition> only{};  ///< the key may stand only there
     std::optional<Condition> need{};  ///< the key must stand there
+    std::optional<Dimension> signal{};   ///< of what stands below the key, whatever the record's `type` says
 
     // These follow from the member the row is bound to.
     Form form{};

@@ -89,17 +89,15 @@ void follow(Scene& scene) {
         for (const CentrelinePoint& point : line.points) scene.lumen.narrowest = std::min(scene.lumen.narrowest, 2 * point.radius);
 }
 
-/// Compliances begin at the pressure that the estimate leaves behind their proximal resistance, where the deck names none.
+/// Compliances begin as the estimate's flow would leave them, where the deck names no pressure.
 void fill_compliances(Scene& scene) {
     const auto& openings = scene.vessel->openings;
     for (std::size_t k = 0; k < openings.size(); ++k)
         for (std::size_t e = 0; e < scene.ends.size(); ++e) {
             EndLaw& law = scene.laws[e];
-            const auto* rcr = law.outlet ? std::get_if<Rcr>(&*law.outlet) : nullptr;
-            if (!rcr || scene.ends[e].name != openings[k].opening.name) continue;
+            if (!law.outlet || scene.ends[e].name != openings[k].opening.name) continue;
             if (scene.config.openings.at(scene.ends[e].name).initial_pressure) continue;
-            law.state[0] = law.level_state[0] =
-                scene.estimate->opening_pressures[k] - rcr->proximal_resistance * scene.estimate->opening_flows[k];
+            law.state = law.level_state = make_steady_state(*law.outlet, scene.estimate->opening_flows[k]);
         }
 }
 

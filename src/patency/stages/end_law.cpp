@@ -106,14 +106,17 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
         if (law.prescribes_flow())
             law.peak_to_mean = peak_to_mean(said, opening.planar ? Section::planar : Section::circular);
         law.signal = {scaled(said, config, opening.area, 1 / law.peak_to_mean), said.ramp};
-        const double start = said.initial_pressure.value_or(said.distal_pressure);
         if (said.type == deck::OpeningType::resistance) law.outlet = Resistance{said.resistance.value(), said.distal_pressure};
         if (said.type == deck::OpeningType::rcr)
             law.outlet = Rcr{said.proximal_resistance, said.compliance, said.distal_resistance, said.distal_pressure};
         if (said.type == deck::OpeningType::coronary)
-            throw DeckError("type coronary needs the pressure of the heart muscle, which decks cannot say yet; use rcr");
+            law.outlet = Coronary{said.proximal_resistance, said.compliance, said.microvascular_resistance, said.myocardial_compliance,
+                                  said.distal_resistance, said.distal_pressure,
+                                  make_signal_waveform(*said.myocardial_pressure, config, Dimension::pressure, 1)};
         if (law.outlet && !(said.type == deck::OpeningType::resistance && said.resistance == 0)) expect_valid(*law.outlet);
-        law.state = law.level_state = {start, 0};
+        if (law.outlet) law.state = make_steady_state(*law.outlet, 0);
+        if (said.initial_pressure) law.state[0] = *said.initial_pressure;
+        law.level_state = law.state;
         return law;
     } catch (const DeckError& error) {
         throw DeckError(fmt::format("openings.{}: {}", opening.name, error.what()));

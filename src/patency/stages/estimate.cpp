@@ -62,9 +62,7 @@ TreeEnd end_of(const Opening& opening, const deck::Opening& said, const deck::Ca
     const EndLaw law = make_end_law(opening, said, config);
     if (law.prescribes_flow()) return TreeFlowRate{(is_inlet ? 1 : -1) * flow_factor * law.signal.waveform.mean()};
     if (!law.outlet) return TreePressure{law.signal.waveform.mean()};
-    if (const auto* r = std::get_if<Resistance>(&*law.outlet)) return TreeResistance{r->resistance, r->distal_pressure};
-    const auto& rcr = std::get<Rcr>(*law.outlet);
-    return TreeResistance{rcr.proximal_resistance + rcr.distal_resistance, rcr.distal_pressure};
+    return TreeResistance{impedance(*law.outlet, 0).real(), said.distal_pressure};
 }
 
 void expect_same_openings(const deck::Case& config, const std::vector<SurfaceOpening>& openings) {

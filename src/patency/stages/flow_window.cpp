@@ -8,9 +8,11 @@ namespace patency {
 
 namespace {
 
-// Windows of a steady flow, per time that the blood needs to pass the lumen: long beside what its noise takes, short beside
-// the whole run.
-constexpr double windows_per_passage = 4;
+// Windows of a steady flow, per time that the blood needs to pass the lumen: longer than sound needs to swing to and fro, shorter
+// than a start from the estimate. The means of its results are taken over more of them, the swings of sound being what is left.
+constexpr double windows_per_passage = 8, averaged_windows = 2;
+
+bool is_steady(const Scene& scene) { return scene.config.about.mode == deck::Mode::steady; }
 
 double window_length(const Scene& scene) {
     const deck::Case& config = scene.config;
@@ -22,7 +24,7 @@ double window_length(const Scene& scene) {
         if (law.prescribes_flow()) inflow += std::max(0.0, law.signal.waveform.mean());
     if (scene.estimate) inflow = std::abs(scene.estimate->opening_flows.front());
     const double passage = inflow > 0 ? scene.lumen.volume / inflow : config.numerics.duration;
-    return std::min(passage / windows_per_passage, 0.25 * config.numerics.duration);
+    return std::min(passage / windows_per_passage, config.numerics.duration / windows_per_passage);
 }
 
 /// The largest change of an opening's flow, of the inflow, and of its pressure, of the openings' range, from one window to
@@ -46,7 +48,8 @@ double change_between(const Scene& scene, const FlowMark& before, const FlowMark
 FlowWindow::FlowWindow(const Scene& scene) : length_(window_length(scene)) {
     const double duration = scene.config.numerics.duration;
     state_.end = duration;
-    start_ = is_watched() ? duration - length_ : window_start(scene.config);
+    averaging_ = (is_steady(scene) ? averaged_windows : 1) * length_;
+    start_ = is_watched() ? duration - averaging_ : window_start(scene.config);
     exact_times_.push_back(start_);
     if (is_watched()) {
         state_.last = mark_flow(scene);
@@ -73,7 +76,7 @@ void FlowWindow::close_window(const Scene& scene, const FlowMark& now) {
         state_.is_settled = std::max(state_.change_percent, last_change) <= tolerance;
         if (state_.is_settled) {
             state_.begin = now;
-            state_.end = std::min(now.time + length_, scene.config.numerics.duration);
+            state_.end = std::min(now.time + averaging_, scene.config.numerics.duration);
         }
     }
     state_.before = std::move(state_.last);

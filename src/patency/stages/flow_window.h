@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From when to when a flow's results are means over time. Without `numerics.convergence` the deck's times say it; with it
-// the flow is watched until it has settled, and then one window longer.
+// the flow is watched until it has settled, and then a while longer.
 #pragma once
 
 #include <optional>
@@ -41,7 +41,7 @@ public:
 private:
     void close_window(const Scene& scene, const FlowMark& now);
 
-    double length_ = 0, start_ = 0;
+    double length_ = 0, averaging_ = 0, start_ = 0;
     std::vector<double> exact_times_;
     State state_;
 };

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "flow_runner.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "patency/io/flow_table.h"
+#include "patency/io/hash.h"
+#include "patency/io/log_file.h"
+#include "patency/io/summary.h"
+#include "patency/stages/run_flow.h"
+
+namespace patency::app {
+
+namespace {
+
+std::atomic<int> caught_signal{0};
+void note_signal(int signal) {
+    caught_signal = signal;
+    std::signal(signal, SIG_DFL);   // a second one ends the program at once
+}
+
+Progress make_progress() {
+    const auto print = [](std::string_view text) {
+        fmt::print(stderr, "{}", text);
+        std::fflush(stderr);
+    };
+    if (!isatty(STDERR_FILENO)) return Progress(print);
+    return Progress(print, {.style = ProgressStyle::terminal, .interval = 0.2, .width = 0, .clock = {}});
+}
+
+void print_log(LogLevel level, std::string_view line) {
+    if (level != LogLevel::error) fmt::print(stderr, "{}\n", line);   // errors are main.cpp's to say
+}
+
+}   // namespace
+
+Log make_run_log(const OutputFolder& folder, bool goes_on) {
+    return make_tee_log(make_file_log(folder.file("log.txt"), goes_on ? LogMode::append : LogMode::begin), print_log);
+}
+
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
+    std::signal(SIGINT, note_signal);
+    std::signal(SIGTERM, note_signal);
+    Progress progress = make_progress();
+    Outcome outcome = Outcome::interrupted;
+    try {
+        outcome = run_flow(config, {.folder = folder,
+                                    .binary_hash = hex_text(hash_file("/proc/self/exe")),
+                                    .interrupted = [] { return caught_signal != 0; },
+                                    .log = log,
+                                    .progress = &progress});
+    } catch (const Error& error) {
+        log(LogLevel::error, error.what());
+        throw;
+    }
+    if (outcome == Outcome::interrupted) return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+    fmt::print("{}", flow_table(read_summary(folder.file("summary.json"))));
+    if (outcome == Outcome::done) return ExitCode::ok;
+    log(LogLevel::warning, "the flow had not settled at the end of numerics.duration: the results are marked; give it a longer one");
+    return ExitCode::bar_missed;
+}
+
+}   // namespace patency::app

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flow stage as a person runs it: its log, its progress line, its signals, its table in the end.
+#pragma once
+
+#include "patency/base/errors.h"
+#include "patency/base/log.h"
+#include "patency/config/case.h"
+#include "patency/io/output_folder.h"
+
+namespace patency::app {
+
+/// Messages to the folder's log.txt and to the terminal; goes on with the log of an interrupted run.
+Log make_run_log(const OutputFolder& folder, bool goes_on);
+
+/// The flow of a case into a folder. SIGINT and SIGTERM end it with a checkpoint (130, 143); a flow that has not settled in its
+/// duration is 6. What throws is in the log.
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
+
+}   // namespace patency::app
