@@ -206,14 +206,28 @@ TEST(VesselResults, TheMeansOfARecorderSurviveItsState) {
     EXPECT_EQ(other.instants(), 2u);
     EXPECT_EQ(other.shear().tawss(), recorder.shear().tawss());
     EXPECT_EQ(other.wall_pressure(), recorder.wall_pressure());
+    EXPECT_EQ(other.cut().state(), recorder.cut().state());
     for (std::size_t k = 0; k < recorder.stations().size(); ++k)
         EXPECT_EQ(other.flows().mean()[k].pressure, recorder.flows().mean()[k].pressure);
+}
+
+TEST(VesselCut, LiesInTheLumenFromWallToWall) {
+    const VesselCut cut(scene());
+    const auto& distance = scene().lumen.distance;
+    double deepest = 0;
+    ASSERT_GT(cut.places().size(), 1000u);
+    for (std::size_t k = 0; k < cut.places().size(); ++k) {
+        EXPECT_LT(distance.value(cut.places()[k]), 0.05e-3) << k;
+        deepest = std::min(deepest, distance.value(cut.places()[k]));
+    }
+    EXPECT_LT(deepest, -1.7e-3);   // the axis of a vessel of 4 mm
+    EXPECT_NEAR(distance.value(cut.places().front()), 0, 0.05e-3);
 }
 
 TEST(RunFlow, AVesselThatIsInterruptedGoesOnToTheSameBytes) {
     Folder folder;
     const deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"10 ms\", convergence: {tolerance_percent: 1e-3, window: \"2.5 ms\"}");
-    const std::vector<std::string> names{"summary.json", "sections.csv", "pullback.csv", "waveforms.csv", "wall.vtp", "centreline.vtp"};
+    const std::vector<std::string> names{"summary.json", "sections.csv", "pullback.csv", "waveforms.csv", "wall.vtp", "centreline.vtp", "cut.vtp", "streamlines.vtp"};
     std::map<std::string, std::string> whole;
     const OutputFolder out(folder.path / "out");
     const Outcome outcome = run_flow(config, {.folder = out});

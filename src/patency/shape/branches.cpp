@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -127,6 +128,18 @@ void name_branches(BranchedLines& vessel, std::span<const NamedCurve> curves) {
         const int use = ++uses[name];
         branch.name = use == 1 ? name : fmt::format("{}_{}", name, use);
     }
+}
+
+Vec3 normal_of(const BranchedLines& vessel) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3d> points;
+    for (const Centreline& line : vessel.lines)
+        for (const CentrelinePoint& p : line.points) sum += points.emplace_back(p.place.x, p.place.y, p.place.z);
+    const Eigen::Vector3d mean = sum / double(points.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& p : points) spread += (p - mean) * (p - mean).transpose();
+    const Eigen::Vector3d n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);   // of the least spread
+    return {n.x(), n.y(), n.z()};
 }
 
 }   // namespace patency

@@ -46,4 +46,7 @@ struct NamedCurve {
 /// radius; a second branch along the same curve becomes NAME_2.
 void name_branches(BranchedLines& vessel, std::span<const NamedCurve> curves);
 
+/// The unit normal of the plane that the points of all lines are nearest to: how the vessel mostly lies.
+Vec3 normal_of(const BranchedLines& vessel);
+
 }   // namespace patency

@@ -10,7 +10,7 @@
 namespace patency {
 
 /// The flow of the branch that a place lies in, as a parabola over its distance to the wall, along the centreline; the
-/// pressure of the station beside it. Continuous along a branch, not across a bifurcation.              THEORY.md (15.8)
+/// pressure of the station beside it. Continuous along a branch, not across a bifurcation.              THEORY.md (15.5)
 class EstimatedField {
 public:
     /// Of a vessel that was followed and its estimate; keeps neither.

@@ -67,6 +67,7 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
         writer.write("vessel/flows", means.flows);
         writer.write("vessel/shear", means.shear);
         writer.write("vessel/pressure", means.pressure);
+        writer.write("vessel/cut", means.cut);
     }
     writer.finish();
 }
@@ -89,7 +90,7 @@ void read_recorder(const CheckpointReader& checkpoint, FlowRecorder& recorder) {
 
 void read_vessel_recorder(const CheckpointReader& checkpoint, VesselRecorder& vessel) {
     const auto numbers = [&](const char* name) { return checkpoint.read<std::vector<double>>(name); };
-    vessel.restore({numbers("vessel/flows"), numbers("vessel/shear"), numbers("vessel/pressure")});
+    vessel.restore({numbers("vessel/flows"), numbers("vessel/shear"), numbers("vessel/pressure"), numbers("vessel/cut")});
 }
 
 void read_window(const CheckpointReader& checkpoint, FlowWindow& window) {

@@ -56,7 +56,7 @@ VesselWall make_vessel_wall(const Vessel& vessel) {
 }
 
 VesselRecorder::VesselRecorder(const Scene& scene)
-    : stations_(make_stations(*scene.vessel, scene.numerics.spacing)), wall_(make_vessel_wall(*scene.vessel)) {
+    : stations_(make_stations(*scene.vessel, scene.numerics.spacing)), wall_(make_vessel_wall(*scene.vessel)), cut_(scene) {
     const WallHint hint = wall_hint(scene);
     grids_.resize(stations_.size());
     for_each_task(stations_.size(), [&](std::size_t k) { grids_[k] = make_section_grid(stations_[k].plane, hint); });
@@ -77,6 +77,7 @@ void VesselRecorder::sample(const Scene& scene) {
     const WallFlow at_wall = flow_at_wall(scene.fluid, *scene.frame, wall_.places, reach, hint,
                                           scene.material.viscosity_at ? scene.material.viscosity_at : constant);
     shear_.add(at_wall.shear_stress, 1);
+    cut_.sample(scene);
     wall_pressure_.resize(at_wall.pressure.size(), 0);
     for (std::size_t k = 0; k < wall_pressure_.size(); ++k) wall_pressure_[k] += at_wall.pressure[k] + scene.reference_pressure;
 }
@@ -91,6 +92,7 @@ void VesselRecorder::restore(const State& state) {
     flows_.restore(state.flows);
     shear_.restore(state.shear);
     wall_pressure_ = state.pressure;
+    cut_.restore(state.cut);
 }
 
 }   // namespace patency

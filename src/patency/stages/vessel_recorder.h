@@ -8,6 +8,7 @@
 #include "patency/analysis/section_flow.h"
 #include "patency/analysis/wall_shear.h"
 #include "patency/stages/scene.h"
+#include "patency/stages/vessel_cut.h"
 
 namespace patency {
 
@@ -39,18 +40,20 @@ public:
     const VesselWall& wall() const { return wall_; }
     const WallShearMeans& shear() const { return shear_; }      ///< as the wall's points; each instant counts 1 s
     std::vector<double> wall_pressure() const;                  ///< mean, as the deck counts it [Pa]
+    const VesselCut& cut() const { return cut_; }
 
     /// For checkpoints.
     struct State {
-        std::vector<double> flows, shear, pressure;
+        std::vector<double> flows, shear, pressure, cut;
     };
-    State state() const { return {flows_.state(), shear_.state(), wall_pressure_}; }
+    State state() const { return {flows_.state(), shear_.state(), wall_pressure_, cut_.state()}; }
     void restore(const State& state);
 
 private:
     std::vector<VesselStation> stations_;
     std::vector<SectionGrid> grids_;
     VesselWall wall_;
+    VesselCut cut_;
     SectionFlowMeans flows_;
     WallShearMeans shear_;
     std::vector<double> wall_pressure_;   // sums

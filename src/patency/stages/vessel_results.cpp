@@ -5,8 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "patency/analysis/streamlines.h"
 #include "patency/io/csv.h"
 #include "patency/io/vtp.h"
+#include "patency/stages/scene_sampling.h"
 
 namespace patency {
 
@@ -201,6 +203,32 @@ void write_centreline(const OutputFolder& folder, const Scene& scene, const Vess
     write_polydata(folder.file("centreline.vtp"), data);
 }
 
+void write_streamlines(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder) {
+    const WallHint hint = wall_hint(scene);
+    const double dp = scene.numerics.spacing;
+    const SectionPlane inlet = recorder.stations().front().plane;   // the inlet's branch is the first
+    constexpr int seeds_across_radius = 4;
+    const SectionGrid seeds = make_section_grid(inlet, hint, seeds_across_radius);
+    double length = 0;
+    for (const Centreline& line : scene.vessel->along->lines.lines) length = std::max(length, line.length());
+    const StreamlineRule rule{.step = dp, .longest = 2 * length, .slowest = 1e-3 * scene.numerics.reference_speed, .reach = sampling_reach(scene),
+                              .is_inside = [&](const Vec3& x) { return hint.distance(x) < 0 && opening_beyond(scene.lumen, x) < 0; }};
+    PolyData data{.space = scene.vessel->checked.surface.space};
+    PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"};
+    for (const Streamline& line : trace_streamlines(scene.fluid, *scene.frame, seeds.place, rule, hint)) {
+        if (line.points.size() < 2) continue;
+        std::vector<std::uint32_t>& cell = data.lines.emplace_back();
+        for (std::size_t k = 0; k < line.points.size(); ++k) {
+            cell.push_back(std::uint32_t(data.points.size()));
+            data.points.push_back(line.points[k]);
+            velocity.values.insert(velocity.values.end(), {line.velocity[k].x, line.velocity[k].y, line.velocity[k].z});
+            pressure.values.push_back(line.pressure[k] + scene.reference_pressure);
+        }
+    }
+    data.arrays = {velocity, pressure};
+    write_polydata(folder.file("streamlines.vtp"), data);
+}
+
 }   // namespace
 
 VesselFlow evaluate_vessel(const Scene& scene, const VesselRecorder& recorder, double inlet_pressure, double lowest_outlet) {
@@ -247,6 +275,8 @@ void write_vessel_files(const OutputFolder& folder, const Scene& scene, const Ve
             pullback.write_row(row_of(scene, recorder, *s, double(line + 1)));
     write_wall(folder, recorder);
     write_centreline(folder, scene, recorder, flow);
+    recorder.cut().write(folder.file("cut.vtp"));
+    write_streamlines(folder, scene, recorder);
 }
 
 }   // namespace patency
