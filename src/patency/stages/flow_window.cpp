@@ -27,20 +27,21 @@ double window_length(const Scene& scene) {
     return std::min(passage / windows_per_passage, config.numerics.duration / windows_per_passage);
 }
 
-/// The largest change of an opening's flow, of the inflow, and of its pressure, of the openings' range, from one window to
-/// the next [%]. Of one opening there is no range: its own pressure then.
+/// The largest change from one window to the next [%]: of an opening's flow, by the inflow; of its pressure beside the first one's,
+/// by the range of the openings; and of the first one's own, the level, by itself.
 double change_between(const Scene& scene, const FlowMark& before, const FlowMark& middle, const FlowMark& now) {
     double inflow = 0, flow_change = 0, pressure_change = 0, low = INFINITY, high = -INFINITY;
+    const OpeningMean first_was = mean_between(before, middle, 0, 1), first_is = mean_between(middle, now, 0, 1);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         const OpeningMean was = mean_between(before, middle, k, scene.ends[k].area);
         const OpeningMean is = mean_between(middle, now, k, scene.ends[k].area);
         inflow += std::max(0.0, -is.flow);
         flow_change = std::max(flow_change, std::abs(is.flow - was.flow));
-        pressure_change = std::max(pressure_change, std::abs(is.pressure - was.pressure));
+        pressure_change = std::max(pressure_change, std::abs(is.pressure - first_is.pressure - was.pressure + first_was.pressure));
         low = std::min(low, is.pressure), high = std::max(high, is.pressure);
     }
-    const double range = high > low ? high - low : std::abs(high);
-    return 100 * std::max(inflow > 0 ? flow_change / inflow : 1, range > 0 ? pressure_change / range : 0);
+    const double range = high - low, level = std::abs(first_is.pressure), level_change = std::abs(first_is.pressure - first_was.pressure);
+    return 100 * std::max({inflow > 0 ? flow_change / inflow : 1, range > 0 ? pressure_change / range : 0, level > 0 ? level_change / level : 0});
 }
 
 }   // namespace
