@@ -235,5 +235,17 @@ TEST(Branches, TakeTheNamesOfCurves) {
     EXPECT_EQ(vessel.branches[2].name, "side");
 }
 
+TEST(Branches, TheNormalOfAVesselIsThatOfThePlaneItLiesIn) {
+    const Vec3 normal = normalized(Vec3{1, 2, 2}), a = normalized(cross(normal, {0, 0, 1})), b = cross(normal, a);
+    BranchedLines vessel;
+    vessel.lines.resize(2);
+    for (int k = 0; k < 20; ++k) {
+        const double s = 1e-3 * k;
+        vessel.lines[0].points.push_back({Vec3{0.1, 0.2, 0.3} + s * a + 3 * s * s * b, a, 1e-3, s});
+        vessel.lines[1].points.push_back({Vec3{0.1, 0.2, 0.3} + s * b, b, 1e-3, s});
+    }
+    EXPECT_NEAR(std::abs(dot(normal_of(vessel), normal)), 1, 1e-9);
+}
+
 }   // namespace
 }   // namespace patency
