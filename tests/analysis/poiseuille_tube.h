@@ -33,6 +33,7 @@ struct PoiseuilleTube {
             fluid.position[i] = motion.place(points[i]);
             fluid.velocity[i] = velocity(fluid.position[i]);
             fluid.pressure[i] = pressure(fluid.position[i]);
+            fluid.volume[i] = spacing * spacing * spacing;
         }
         frame = std::make_unique<Frame>(Vec3{-0.05, -0.05, -0.05}, Vec3{0.05, 0.05, 0.05}, reach());
         wall.distance = [this](const Vec3& x) { return radial(x) - radius; };

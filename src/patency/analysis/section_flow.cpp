@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "patency/analysis/buckets.h"
+#include "patency/bodies/open_end.h"
+
 namespace patency {
 
 namespace {
@@ -36,7 +39,7 @@ SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, i
     };
 
     SectionGrid grid;
-    grid.normal = n;
+    grid.normal = n, grid.side = side;
     // Flood from the centre over squares that have a part in the lumen.
     std::vector<std::uint8_t> seen(std::size_t(width) * std::size_t(width), 0);
     std::vector<std::pair<int, int>> next{{half, half}};
@@ -61,12 +64,44 @@ SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, i
     return grid;
 }
 
+namespace {
+
+constexpr double slab_share = 0.75;   // of the reach, 2.6 spacings: two layers on both sides
+
+/// The flow through a section from the particles whose feet on its plane lie in its squares.
+double flow_of_particles(const FluidParticles& fluid, const Buckets& buckets, const SectionGrid& grid, double reach) {
+    SectionShape shape{{}, grid.normal, grid.total_area(), 0};
+    for (std::size_t k = 0; k < grid.place.size(); ++k) shape.centre += grid.area[k] / shape.area * grid.place[k];
+    std::vector<std::uint32_t> near;
+    const double slab = slab_share * reach, half_diagonal = std::sqrt(0.5) * grid.side;
+    for (std::size_t k = 0; k < grid.place.size(); ++k) {
+        const Vec3 d = grid.place[k] - shape.centre;
+        shape.mean_square += grid.area[k] / shape.area * dot(d, d);
+        buckets.for_each_near(grid.place[k], [&](std::uint32_t i) {
+            const Vec3 e = fluid.position[i] - grid.place[k];
+            if (std::abs(dot(e, grid.normal)) < slab && norm(in_plane(e, grid.normal)) < half_diagonal) near.push_back(i);
+        });
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    std::vector<OpenEnd::Member> members;
+    for (std::uint32_t i : near) {
+        const double s = dot(fluid.position[i] - shape.centre, grid.normal);
+        members.push_back({i, s, (1 - std::abs(s) / slab) * fluid.volume[i]});
+    }
+    return flow_of_section(shape, fluid, members);
+}
+
+}   // namespace
+
 std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame,
                                                std::span<const SectionGrid> sections, double reach,
                                                const WallHint& wall) {
     std::vector<Vec3> places;
     for (const SectionGrid& s : sections) places.insert(places.end(), s.place.begin(), s.place.end());
     const auto samples = sample_flow(fluid, frame, places, reach, false, &wall);
+    if (places.empty()) return {};
+    const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, places, reach);
 
     std::vector<SectionFlow> result;
     std::size_t first = 0;
@@ -78,14 +113,13 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
             if (sample.neighbours == 0) continue;
             const double along = dot(sample.velocity, s.normal);
             seen += s.area[k];
-            r.flow += s.area[k] * along;
             r.pressure += s.area[k] * sample.pressure;
             r.peak_velocity = std::max(r.peak_velocity, along);
         }
         first += s.place.size();
-        r.mean_velocity = r.flow / seen;
-        r.flow = r.mean_velocity * r.area;
-        r.pressure /= seen;
+        r.pressure /= seen;   // nothing over nothing, where no blood was near
+        r.flow = seen > 0 ? flow_of_particles(fluid, buckets, s, reach) : NAN;
+        r.mean_velocity = r.flow / r.area;
         result.push_back(r);
     }
     return result;

@@ -21,6 +21,7 @@ struct SectionGrid {
     std::vector<Vec3> place;    ///< middles of the squares' parts in the lumen [m]
     std::vector<double> area;   ///< of their part in the lumen [m^2]
     Vec3 normal;
+    double side = 0;             ///< of a square [m]
     bool closed = true;          ///< false: it runs into open space (a side branch cut along), farther than 4 radii
     double total_area() const;   ///< [m^2]
 };
@@ -34,8 +35,9 @@ struct SectionFlow {
     double mean_velocity;   ///< flow over area [m/s]
     double peak_velocity;   ///< largest component along the normal at a square's middle [m/s]
 };
-/// What goes through each section now. Squares without a particle within `reach` [m] take no part in the means: if
-/// there are only such, flow and pressure are NaN.
+/// What goes through each section now: the flow from the particles themselves in a slab of three quarters of `reach` [m] on both sides,
+/// which carry it whatever its profile; pressure and peak from samples in the squares. Squares without a particle within reach take
+/// no part in the means: if there are only such, flow and pressure are NaN.
 std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame,
                                                std::span<const SectionGrid> sections, double reach,
                                                const WallHint& wall);

@@ -104,31 +104,27 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
     end.slope = wss > 0 ? (wsp - end.mean_pressure * ws) / wss : 0;
 }
 
-namespace {
-
-/// Area times the mean velocity over the section, from particles that stand anywhere in it.            THEORY.md (8.9)
-double flow_of(const OpenEnd& end, const FluidParticles& fluid, std::span<const OpenEnd::Member> members) {
+double flow_of_section(const SectionShape& section, const FluidParticles& fluid, std::span<const OpenEnd::Member> members) {
     double w = 0, wq = 0, wqq = 0, wv = 0, wqv = 0;
     for (const auto& m : members) {
-        const Vec3 d = fluid.position[m.index] - end.centre;
-        const double q = dot(d, d) - m.s * m.s, v = dot(fluid.velocity[m.index], end.normal);
+        const Vec3 d = fluid.position[m.index] - section.centre;
+        const double q = dot(d, d) - m.s * m.s, v = dot(fluid.velocity[m.index], section.normal);
         w += m.weight, wq += m.weight * q, wqq += m.weight * q * q;
         wv += m.weight * v, wqv += m.weight * q * v;
     }
     const double det = w * wqq - wq * wq;
     const double curvature = det > 0 ? (w * wqv - wq * wv) / det : 0;
-    return w > 0 ? end.area * (wv / w + curvature * (end.mean_square - wq / w)) : 0;
+    return w > 0 ? section.area * (wv / w + curvature * (section.mean_square - wq / w)) : 0;
 }
-
-}  // namespace
 
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share) {
     if (end.imposed_flow) {
         end.flow = end.imposed_flow(t);
         return;
     }
-    const double at_plane = flow_of(end, fluid, end.section);
-    if (share > 0) end.flow_excess += share * (at_plane - flow_of(end, fluid, end.inside) - end.flow_excess);
+    const SectionShape section{end.centre, end.normal, end.area, end.mean_square};
+    const double at_plane = flow_of_section(section, fluid, end.section);
+    if (share > 0) end.flow_excess += share * (at_plane - flow_of_section(section, fluid, end.inside) - end.flow_excess);
     end.flow = at_plane - end.flow_excess;
 }
 

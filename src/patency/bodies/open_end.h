@@ -77,6 +77,14 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
 ///                                                                                              THEORY.md (8.10)
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share);
 
+/// Area [m^2] times the mean velocity [m/s] through a section, from particles that stand anywhere in it: their weighted mean, and a
+/// fitted parabola for where they stand. `mean_square` is that of the distance from the centre over the section [m^2]. THEORY.md (8.9)
+struct SectionShape {
+    Vec3 centre, normal;
+    double area, mean_square;
+};
+double flow_of_section(const SectionShape& section, const FluidParticles& fluid, std::span<const OpenEnd::Member> members);
+
 /// Lets particles cross planes, copies those that enter, removes those at the far ends, and renews the tails: copies of
 /// a buffer's first particles (up to `tail` [m] beyond the plane) behind its last ones. New particles are ordered by
 /// end, then those that enter before those of the tail, each by parent.
