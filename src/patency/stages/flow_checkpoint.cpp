@@ -29,8 +29,9 @@ FlowMark read_mark(const CheckpointReader& reader, const std::string& name) {
 
 void write_window(CheckpointWriter& writer, const FlowWindow::State& state) {
     if (state.begin) write_mark(writer, "window/begin", *state.begin);
-    if (state.last) write_mark(writer, "window/last", *state.last);
-    if (state.before) write_mark(writer, "window/before", *state.before);
+    writer.write("window/marks", std::int64_t(state.marks.size()));
+    for (std::size_t k = 0; k < state.marks.size(); ++k) write_mark(writer, "window/mark_" + std::to_string(k), state.marks[k]);
+    writer.write("window/quiet_windows", std::int64_t(state.quiet_windows));
     writer.write("window/end", state.end);
     writer.write("window/change_percent", state.change_percent);
     writer.write("window/is_settled", std::int64_t(state.is_settled));
@@ -94,16 +95,15 @@ void read_vessel_recorder(const CheckpointReader& checkpoint, VesselRecorder& ve
 }
 
 void read_window(const CheckpointReader& checkpoint, FlowWindow& window) {
-    const auto mark = [&](const char* name) -> std::optional<FlowMark> {
-        if (!checkpoint.contains(std::string(name) + "/time")) return {};
-        return read_mark(checkpoint, name);
-    };
-    window.restore({.begin = mark("window/begin"),
-                    .last = mark("window/last"),
-                    .before = mark("window/before"),
-                    .end = checkpoint.read<double>("window/end"),
-                    .change_percent = checkpoint.read<double>("window/change_percent"),
-                    .is_settled = checkpoint.read<std::int64_t>("window/is_settled") != 0});
+    FlowWindow::State state;
+    if (checkpoint.contains("window/begin/time")) state.begin = read_mark(checkpoint, "window/begin");
+    for (std::int64_t k = 0; k < checkpoint.read<std::int64_t>("window/marks"); ++k)
+        state.marks.push_back(read_mark(checkpoint, "window/mark_" + std::to_string(k)));
+    state.end = checkpoint.read<double>("window/end");
+    state.change_percent = checkpoint.read<double>("window/change_percent");
+    state.quiet_windows = int(checkpoint.read<std::int64_t>("window/quiet_windows"));
+    state.is_settled = checkpoint.read<std::int64_t>("window/is_settled") != 0;
+    window.restore(state);
 }
 
 }  // namespace patency

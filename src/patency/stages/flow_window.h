@@ -10,6 +10,12 @@
 
 namespace patency {
 
+/// How far means moved from one window to the next, and how sure that is.
+struct WindowChange {
+    double change = 0;   ///< the largest [%]
+    double excess = 0;   ///< of the largest beyond what it may be: the tolerance, or twice its own uncertainty [%]
+};
+
 class FlowWindow {
 public:
     explicit FlowWindow(const Scene& scene);
@@ -23,7 +29,7 @@ public:
     double end() const { return state_.end; }   ///< where the run ends, by what is known now [s]
 
     /// With a convergence: whether flows and pressures of all openings had settled before the means began, and by how much
-    /// their means changed from the last window but one to the last, of the inflow and of the range of the pressures [%].
+    /// their means changed from the last window but one to the last [%].
     bool is_watched() const { return length_ > 0; }
     bool is_settled() const { return state_.is_settled; }
     double change_percent() const { return state_.change_percent; }
@@ -31,19 +37,26 @@ public:
 
     /// For checkpoints.
     struct State {
-        std::optional<FlowMark> begin, last, before;   ///< last, before: ends of the last two whole windows
+        std::optional<FlowMark> begin;
+        std::vector<FlowMark> marks;   ///< ends of the parts of the last two windows
         double end = 0, change_percent = 100;
+        int quiet_windows = 0;         ///< in a row, in which nothing moved
         bool is_settled = false;
     };
     const State& state() const { return state_; }
     void restore(const State& state) { state_ = state; }
 
 private:
-    void close_window(const Scene& scene, const FlowMark& now);
+    void compare_windows(const Scene& scene);
 
     double length_ = 0, averaging_ = 0, start_ = 0;
     std::vector<double> exact_times_;
     State state_;
 };
+
+/// The change between two windows of `parts` each, whose ends are `marks` (2 parts + 1). Flows count by the inflow; pressures beside the
+/// first opening's by the range of the openings; that one's own, the level, by itself. Parts that scatter tell how uncertain a
+/// mean is; never is more than four times the tolerance [%] put down to that.                        THEORY.md section 15
+WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, double tolerance);
 
 }   // namespace patency
