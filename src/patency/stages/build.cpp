@@ -129,12 +129,12 @@ void place_particles(Scene& scene) {
 
 }  // namespace
 
-std::unique_ptr<Scene> build_frame(const deck::Case& config) {
+std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known) {
     auto scene = std::make_unique<Scene>();
     scene->config = config;
     if (config.wall.motion != deck::WallMotion::rigid)
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
-    scene->lumen = make_lumen(config);
+    scene->lumen = make_lumen(config, known);
     tune_outlets(scene->config, scene->lumen.openings);
     expect_wall_names(*scene);
     scene->material = make_material(config.blood);
