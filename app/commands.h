@@ -13,6 +13,7 @@ namespace patency::app {
 
 void add_version_command(CLI::App& program, ExitCode& exit_code);
 void add_schema_command(CLI::App& program, ExitCode& exit_code);
+void add_init_command(CLI::App& program, ExitCode& exit_code);
 void add_check_command(CLI::App& program, ExitCode& exit_code);
 void add_inspect_command(CLI::App& program, ExitCode& exit_code);
 void add_stent_command(CLI::App& program, ExitCode& exit_code);

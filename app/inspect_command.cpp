@@ -49,20 +49,6 @@ Inspection inspect(const InspectOptions& o) {
     return result;
 }
 
-/// Widths of a branch without its bifurcations [m].
-struct Widths {
-    double least, mean, most;
-};
-Widths widths_of(const VesselAlong& v, const Branch& branch) {
-    Widths w{Bounds::infinity, 0, 0};
-    for (std::size_t k = branch.first; k <= branch.last; ++k) {
-        const double diameter = 2 * v.lines.point(branch, k).radius;
-        w.least = std::min(w.least, diameter), w.most = std::max(w.most, diameter);
-        w.mean += diameter / double(branch.last - branch.first + 1);
-    }
-    return w;
-}
-
 std::string diameter_of(const std::optional<Reference>& reference) {
     return reference ? fmt::format("{:.3f}", 1e3 * reference->diameter) : "none";
 }

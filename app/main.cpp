@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
     program.require_subcommand(1);
     app::add_check_command(program, exit_code);
     app::add_inspect_command(program, exit_code);
+    app::add_init_command(program, exit_code);
     app::add_stent_command(program, exit_code);
     app::add_estimate_command(program, exit_code);
     app::add_flow_command(program, exit_code);

@@ -56,6 +56,16 @@ TEST(Mistakes, MissingForAType) {
               only("13:5: openings.outlet: needs a resistance, or aorta.pressure, from which it is tuned to the bed"));
 }
 
+TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
+    const auto with = [](const std::string& geometry) {
+        return mistakes_in(pipe_with("  shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}\n", "  " + geometry + "\n"));
+    };
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlet: outlet_2"), "accepted");
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlett: outlet_2"), only("6:3: geometry.inlett: unknown key. Did you mean \"inlet\"?"));
+    EXPECT_EQ(with("network: t.json\n  inlet: outlet_2"),
+              only("5:10: geometry.inlet: can be chosen of a surface only; a network and a shape say it themselves"));
+}
+
 TEST(Mistakes, LesionThatCannotBe) {
     const auto with_lesion = [](const std::string& geometry, const std::string& lesion) {
         return mistakes_in(pipe_with("  shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}\n",

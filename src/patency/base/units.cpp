@@ -32,6 +32,7 @@ constexpr std::array table{
     Unit{time, "s", 1, 1},
     Unit{time, "ms", 1, 1e3},
     Unit{time, "min", 60, 1},
+    Unit{time, "h", 3600, 1},
     Unit{velocity, "m/s", 1, 1},
     Unit{velocity, "cm/s", 1, 100},
     Unit{velocity, "mm/s", 1, 1e3},

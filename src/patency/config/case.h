@@ -140,6 +140,7 @@ struct Geometry {   // exactly one of surface, network, shape
     std::optional<Shape> shape;
     std::optional<std::string> unit;    ///< of the file's coordinates: m, cm, mm or um
     std::optional<std::string> space;   ///< axes of the file's coordinates: LPS or RAS
+    std::optional<std::string> inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
     std::optional<Lesion> lesion;
     Extensions extensions;
     bool operator==(const Geometry&) const = default;

@@ -68,6 +68,7 @@ private:
         if (g.network)
             expect(g.unit.has_value() || g.network->extension() == ".json", path + "network",
                    "needs geometry.unit: only a JSON network says whether it counts in mm or in m", {path + "unit"});
+        if (g.inlet) expect(g.surface.has_value(), path + "inlet", "can be chosen of a surface only; a network and a shape say it themselves");
         if (g.lesion) {
             expect(g.network.has_value(), path + "lesion", "can narrow a network only, not a surface or a shape");
             expect(!g.lesion->side || norm(*g.lesion->side) > 0, path + "lesion.side", "must not be zero");

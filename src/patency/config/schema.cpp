@@ -130,6 +130,8 @@ const Table& table_of<Geometry>() {
                                   .example = "mm"}),
             row(&Geometry::space, {.key = "space", .help = "the axes of the file's coordinates: LPS or RAS",
                                    .example = "LPS"}),
+            row(&Geometry::inlet, {.key = "inlet", .help = "the opening of a surface that is the inlet, by its name or number; the largest if absent",
+                                   .example = "\"outlet_2\""}),
             row(&Geometry::lesion, {.key = "lesion", .help = "a stenosis that narrows a branch of the network"}),
             row(&Geometry::extensions, {.key = "extensions", .help = "straight pieces put on the openings"}),
         },

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "patency/shape/distance_shapes.h"
+#include "patency/shape/passage.h"
 #include "patency/shape/signed_distance.h"
 
 namespace patency {
@@ -42,7 +43,7 @@ struct Lumen {
     double extension = Bounds::infinity;   ///< how far the distance goes on straight past an opening [m]
     Bounds bounds;        ///< around the lumen behind its openings [m]
     double narrowest = 0; ///< the smallest width anywhere: a gap, a side or a diameter [m]; 0 if nobody said
-    double narrowest_share = 0; ///< of the inflow, that is likely to pass there; 0 if nobody said
+    Passage passage{};
     Vec3 period{};        ///< the length of the periodic box per axis [m], 0 where it is not periodic
     /// Where lattices of particles are laid: cell faces pass through the frame's origin, and along an axis with
     /// fit > 0 a whole number of cells fills that length [m].

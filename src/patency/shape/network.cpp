@@ -72,16 +72,27 @@ double narrowest_diameter(const Network& network) {
     return 2 * radius;
 }
 
-double narrowest_share(const Network& network) {
-    double narrowest = Bounds::infinity, healthy = 0, outlets = 0;
+Passage passage_of(const Network& network) {
     const auto cube = [](double r) { return r * r * r; };
+    double outlets = 0;
     for (const Tube& tube : network.tubes) {
-        const auto [least, largest] = std::minmax_element(tube.radii.begin(), tube.radii.end());
-        if (*least < narrowest) narrowest = *least, healthy = *largest;
         if (tube.start && tube.start->name != "inlet") outlets += cube(tube.radii.front());
         if (tube.end && tube.end->name != "inlet") outlets += cube(tube.radii.back());
     }
-    return outlets > 0 ? std::min(1.0, cube(healthy) / outlets) : 1;
+    Passage passage{Bounds::infinity, 0};
+    for (const Tube& tube : network.tubes) {
+        const double healthy = *std::max_element(tube.radii.begin(), tube.radii.end());
+        const double share = outlets > 0 ? std::min(1.0, cube(healthy) / outlets) : 1;
+        for (std::size_t k = 0; k < tube.points.size(); ++k) {
+            const double area = std::numbers::pi * tube.radii[k] * tube.radii[k];
+            passage.tightest_area = std::min(passage.tightest_area, area / share);
+            if (k == 0) continue;
+            const double a = tube.radii[k - 1], b = tube.radii[k];   // linear in between
+            passage.drag += share * norm(tube.points[k] - tube.points[k - 1]) * (a * a + a * b + b * b) /
+                            (3 * cube(a) * cube(b) * std::numbers::pi * std::numbers::pi);
+        }
+    }
+    return passage;
 }
 
 void expect_tubes(const Network& network) {

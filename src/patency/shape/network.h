@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "patency/base/vec.h"
+#include "patency/shape/passage.h"
 
 namespace patency {
 
@@ -56,9 +57,9 @@ void open_free_ends(Network& network);
 void open_at(Network& network, const std::string& name, const Vec3& point, const Vec3& normal);
 
 double narrowest_diameter(const Network& network);   ///< [m]
-/// The share of the inflow that passes the narrowest place when flows go with the cube of healthy radii (Murray 1926), a
-/// tube's healthy radius being its largest.
-double narrowest_share(const Network& network);
+/// When flows go with the cube of healthy radii (Murray 1926), a tube's healthy radius being its largest. The drag is that
+/// of all tubes in a row, no less than that of any way through them.
+Passage passage_of(const Network& network);
 
 double length_of(const Tube& tube);   ///< along the centreline [m]
 

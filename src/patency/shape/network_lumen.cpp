@@ -131,7 +131,7 @@ Lumen make_network_lumen(const Network& network, double extension, double resolu
             .extension = extension,
             .bounds = bounds(surface),
             .narrowest = narrowest_diameter(network),
-            .narrowest_share = narrowest_share(network)};
+            .passage = passage_of(network)};
 }
 
 }   // namespace patency

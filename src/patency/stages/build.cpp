@@ -83,7 +83,6 @@ std::unique_ptr<Frame> make_frame(const Scene& scene) {
 
 /// The vessel behind the lumen and its estimate, which knows the narrowest place that nobody named.
 void follow(Scene& scene) {
-    scene.vessel = read_vessel(scene.config);
     scene.estimate = estimate_flow(scene.config, *scene.vessel);
     for (const Centreline& line : scene.vessel->along->lines.lines)
         for (const CentrelinePoint& point : line.points) scene.lumen.narrowest = std::min(scene.lumen.narrowest, 2 * point.radius);
@@ -156,13 +155,14 @@ void place_particles(Scene& scene) {
 
 }  // namespace
 
-std::unique_ptr<Scene> build_frame(const deck::Case& config) {
+std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known) {
     auto scene = std::make_unique<Scene>();
     scene->config = config;
     if (config.wall.motion != deck::WallMotion::rigid)
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
-    scene->lumen = make_lumen(config);
-    if (config.has_vessel()) follow(*scene);
+    if (config.has_vessel()) scene->vessel = known ? *known : read_vessel(config);
+    scene->lumen = make_lumen(config, config.geometry.surface ? &*scene->vessel : nullptr);
+    if (scene->vessel) follow(*scene);
     tune_outlets(scene->config, scene->lumen.openings);
     expect_wall_names(*scene);
     scene->material = make_material(config.blood);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "patency/stages/scene.h"
+#include "patency/stages/vessel.h"
 
 namespace patency {
 
@@ -13,7 +14,8 @@ namespace patency {
 std::unique_ptr<Scene> build_scene(const deck::Case& config);
 
 /// The same without particles and scheme: what can be said before points are fitted.
-std::unique_ptr<Scene> build_frame(const deck::Case& config);
+/// `known`: as make_lumen's.
+std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known = nullptr);
 
 /// How far blood is kept beyond an opening's plane [spacings]: the buffer.
 inline constexpr double buffer_spacings = 4;

@@ -31,7 +31,6 @@ std::vector<TreeBranch> branches_of(const VesselAlong& along, const EstimateChan
     for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
         const Branch& from = along.lines.branches[b];
         const auto& points = along.lines.lines[from.line].points;
-        const auto& sections = along.sections[from.line];
         TreeBranch branch;
         branch.name = from.name, branch.parent = from.parent;
         std::size_t first = from.first;
@@ -42,10 +41,8 @@ std::vector<TreeBranch> branches_of(const VesselAlong& along, const EstimateChan
             branch.turn = std::acos(std::clamp(cosine, -1.0, 1.0));
         }
         for (std::size_t k = first; k <= from.last; ++k) {
-            const CrossSection& s = sections[k];
-            const bool is_own = s.is_closed && s.holds_place && !s.is_shared && s.area > 0;
             branch.arc.push_back(points[k].arc);
-            branch.area.push_back(changed(is_own ? s.area : pi * points[k].radius * points[k].radius, change.diameter));
+            branch.area.push_back(changed(lumen_area(along, from.line, k), change.diameter));
         }
         branches.push_back(std::move(branch));
     }

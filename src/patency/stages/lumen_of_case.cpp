@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
 #include "patency/io/network_file.h"
-#include "patency/physics/open_ends/bed.h"
 #include "patency/shape/network_lumen.h"
 #include "patency/shape/surface_lumen.h"
-#include "patency/stages/vessel.h"
 
 namespace patency {
 
@@ -116,20 +115,18 @@ Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
     throw GeometryError("geometry.shape.type is none of the known ones");
 }
 
-Lumen make_lumen_of_surface(const deck::Case& config) {
+Lumen make_lumen_of_surface(const deck::Case& config, const Vessel& vessel) {
     const deck::Geometry& geometry = config.geometry;
     const double dp = config.numerics.spacing;
-    const Vessel vessel = open_vessel(config);
     // Half a spacing: the distance errs by less than a twentieth of it. Ten voxels hold the wall's points and those that may
     // become some; the continuations hold the buffer, the wall beyond it and its kernels.
     Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
                                                          .straight = geometry.extensions.diameters});
-    // Of the openings: a throat between them is narrower, but nobody has followed the vessel yet.
-    std::vector<double> diameters;
-    for (std::size_t k = 1; k < lumen.openings.size(); ++k) diameters.push_back(2 * lumen.openings[k].radius);
-    lumen.narrowest = std::min(2 * lumen.openings[0].radius, *std::min_element(diameters.begin(), diameters.end()));
-    const auto shares = murray_shares(diameters, 3);
-    lumen.narrowest_share = *std::min_element(shares.begin(), shares.end());
+    std::vector<double> outlets;
+    for (std::size_t k = 1; k < lumen.openings.size(); ++k) outlets.push_back(2 * lumen.openings[k].radius);
+    lumen.narrowest = std::min({2 * lumen.openings[0].radius, *std::min_element(outlets.begin(), outlets.end()),
+                                narrowest_diameter(*vessel.along)});
+    lumen.passage = passage_of(*vessel.along, outlets);
     return lumen;
 }
 
@@ -164,12 +161,16 @@ Network read_network_of(const deck::Case& config) {
     return network;
 }
 
-Lumen make_lumen(const deck::Case& config) {
+Lumen make_lumen(const deck::Case& config, const Vessel* known) {
     const deck::Geometry& g = config.geometry;
-    Lumen lumen = g.shape ? make_unchecked(config, *g.shape) : g.surface ? make_lumen_of_surface(config) : make_network_of(config);
+    Lumen lumen = g.shape     ? make_unchecked(config, *g.shape)
+                  : g.network ? make_network_of(config)
+                  : known     ? make_lumen_of_surface(config, *known)
+                              : make_lumen_of_surface(config, read_vessel(config));
     if (g.shape) {
-        lumen.narrowest = narrowest_width(*g.shape);
-        lumen.narrowest_share = g.shape->type == deck::ShapeType::box || is_branching(g) ? 0 : 1;
+        const double width = lumen.narrowest = narrowest_width(*g.shape);
+        if (g.shape->type != deck::ShapeType::box && !is_branching(g))
+            lumen.passage.tightest_area = lumen.planar ? width : 0.25 * std::numbers::pi * width * width;
     }
     expect_same_names(config, lumen);
     return lumen;

@@ -10,12 +10,14 @@
 #include "patency/physics/open_ends/profile.h"
 #include "patency/shape/lumen.h"
 #include "patency/shape/network.h"
+#include "patency/stages/vessel.h"
 
 namespace patency {
 
 /// The lumen of geometry.shape, geometry.surface or geometry.network with its openings named. Throws GeometryError for what cannot be and for
 /// surfaces with defects; FileError; DeckError if the deck names openings that the lumen has not, leaves one out, or has too large a spacing for it.
-Lumen make_lumen(const deck::Case& config);
+/// `known`: the deck's surface if it has been read (read_vessel), so that this need not be done again.
+Lumen make_lumen(const deck::Case& config, const Vessel* known = nullptr);
 
 /// The network of geometry.network, narrowed by geometry.lesion. Throws FileError, GeometryError.
 Network read_network_of(const deck::Case& config);

@@ -13,17 +13,20 @@ namespace patency {
 
 namespace {
 
-// Measured on two cores with AVX-512 (patency bench flow): particle-steps per second and thread, resident bytes per
-// particle with its row of neighbours. Guides for a person who decides whether to wait, no promises.
-constexpr double steps_per_second = 2.5e6;
+// Measured on two cores with AVX-512: particle-steps per second of processor time of whole flows in space, 1.3 to 1.8 million
+// from ten thousand to half a million particles (timing.json, docs/VERIFICATION.md); resident bytes per particle with its row
+// of neighbours. Guides for a person who decides whether to wait, no promises.
+constexpr double steps_per_second = 1.6e6;
 constexpr double bytes_per_particle_in_space = 2500, bytes_per_particle_in_plane = 1500;
 constexpr double viscous_number = 0.125;   // as the scheme's: dt <= 0.125 h^2 / nu
 
 }  // namespace
 
-FlowPlan plan_flow(const Scene& scene, int threads) {
+FlowPlan plan_flow(const Scene& scene, int threads) { return plan_flow(scene, threads, scene.numerics.spacing); }
+
+FlowPlan plan_flow(const Scene& scene, int threads, double dp) {
     const FlowNumerics& n = scene.numerics;
-    const double dp = n.spacing, h = n.smoothing_ratio * dp, c = scene.material.sound_speed, u = n.reference_speed;
+    const double h = n.smoothing_ratio * dp, c = scene.material.sound_speed, u = n.reference_speed;
     const double cell = n.planar ? dp * dp : dp * dp * dp, width = scene.lumen.narrowest;
     const double developed = parabola_profile(n.planar ? Section::planar : Section::circular, 0);
     const double thickness = 2 * h + 0.5 * dp, beyond = buffer_spacings * dp;
@@ -48,6 +51,27 @@ FlowPlan plan_flow(const Scene& scene, int threads) {
     plan.threads = threads;
     plan.seconds = plan.fluid_particles * plan.acoustic_steps / (steps_per_second * threads);
     return plan;
+}
+
+double round_spacing(double spacing) {
+    constexpr int digits = 3, step = 5;
+    const int exponent = int(std::floor(std::log10(1e3 * spacing))) - digits + 1;
+    const auto made = [&](long n) {   // as it is read from a deck: the nearest number to the decimal one in mm, then in m
+        return (exponent < 0 ? double(n) / std::pow(10.0, -exponent) : double(n) * std::pow(10.0, exponent)) / 1e3;
+    };
+    long n = long(1e3 * spacing / std::pow(10.0, exponent)) / step * step + step;
+    while (made(n) > spacing) n -= step;
+    return made(n);
+}
+
+double finest_spacing(const Scene& scene, const Budget& budget, double coarsest) {
+    constexpr double least_step = 1 - 1e-9;
+    double finest = round_spacing(coarsest);
+    for (double dp = finest;; dp = round_spacing(least_step * dp)) {
+        const FlowPlan plan = plan_flow(scene, budget.threads, dp);
+        if (!(plan.seconds <= budget.seconds && plan.memory <= budget.memory)) return finest;
+        finest = dp;
+    }
 }
 
 }  // namespace patency

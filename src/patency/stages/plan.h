@@ -20,7 +20,22 @@ struct FlowPlan {
     int threads;
 };
 
-/// Of a scene without particles (build_frame).
+/// Of a scene without particles (build_frame), at its spacing or at another one [m].
 FlowPlan plan_flow(const Scene& scene, int threads);
+FlowPlan plan_flow(const Scene& scene, int threads, double spacing);
+
+/// What a flow may cost.
+struct Budget {
+    double seconds;   ///< of computing, on `threads` threads
+    double memory;    ///< bytes
+    int threads;
+};
+
+/// The largest of the spacings that people write, 1.00, 1.05 to 9.95 times a power of ten, which is not above this one [m].
+double round_spacing(double spacing);
+
+/// The finest of these spacings that the budget pays for, and all coarser ones up to `coarsest` with it; `coarsest` rounded
+/// if it pays for none. More budget never gives a coarser one.
+double finest_spacing(const Scene& scene, const Budget& budget, double coarsest);
 
 }  // namespace patency

@@ -43,12 +43,30 @@ double length_of(const Lumen& lumen) {
     return length > 0 ? length : norm(lumen.bounds.high - lumen.bounds.low);
 }
 
+/// Poiseuille's loss of a flow [Pa] that is so fast on the axis at the narrowest place.
+double viscous_loss(const Lumen& lumen, double flow, double speed, double viscosity) {
+    if (lumen.passage.drag > 0) return 8 * std::numbers::pi * viscosity * flow * lumen.passage.drag;
+    const double a = 0.5 * lumen.narrowest;   // as narrow all along
+    return speed * (lumen.planar ? 2 : 4) * viscosity / (a * a) * length_of(lumen);
+}
+
+/// What resistances let out at most of a vessel at one pressure [m^3/s]: infinite if blood can go past them.
+double flow_through_resistances(std::span<const EndLaw> laws, double pressure) {
+    double flow = 0;
+    for (const EndLaw& law : laws) {
+        if (!law.outlet) continue;
+        const auto* r = std::get_if<Resistance>(&*law.outlet);
+        if (!r || !(r->resistance > 0)) return Bounds::infinity;
+        flow += std::max(0.0, pressure - r->distal_pressure) / r->resistance;
+    }
+    return flow;
+}
+
 }  // namespace
 
 Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws, const FluidMaterial& material) {
     const double rho = material.density, mu = material.viscosity, length = length_of(lumen);
-    const double width = lumen.narrowest;
-    const double narrowest_area = lumen.planar ? width : 0.25 * std::numbers::pi * width * width;
+    const Passage& passage = lumen.passage;
     Expected expected;
 
     double inflow = 0, largest_peak = 0, resistance = 0;
@@ -66,9 +84,10 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     // A developed profile behind a plug, and continuity through the narrowest place.
     const double developed = parabola_profile(lumen.planar ? Section::planar : Section::circular, 0);
     if (is_branching(config.geometry)) expected.speed *= developed / std::max(1.0, std::min(developed, largest_peak));
-    expected.speed = std::max(expected.speed, lumen.narrowest_share * inflow / narrowest_area * std::max(largest_peak, developed));
+    const auto speed_of = [&](double flow) { return passage.tightest_area > 0 ? flow / passage.tightest_area * std::max(largest_peak, developed) : 0; };
+    expected.speed = std::max(expected.speed, speed_of(inflow));
 
-    double lowest = Bounds::infinity, highest = -Bounds::infinity, offset = 0;
+    double lowest = Bounds::infinity, highest = -Bounds::infinity, offset = 0, lowest_held = Bounds::infinity;
     for (const EndLaw& law : laws) {
         if (law.prescribes_flow()) continue;
         const auto pressure = [&](double time) {
@@ -78,14 +97,23 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
         };
         const auto [low, high] = range_of(config, pressure);
         lowest = std::min(lowest, low), highest = std::max(highest, high);
+        if (!law.outlet) lowest_held = std::min(lowest_held, high);
         offset = std::max({offset, std::abs(low), std::abs(high)});
     }
-    double driving = highest > lowest ? highest - lowest : 0;
+    double driving = highest > lowest ? highest - lowest : 0, flow = inflow;
+    // Behind a vessel whose pressures are all alike the beds limit the flow, and it loses little. THEORY.md (15.6)
+    bool is_throttled = false;
     if (!is_driven_by_flow) {
         const double gradient = driving / length + rho * norm(config.body_force);
         const double bernoulli = std::sqrt(2 * gradient * length / rho);
-        const double viscous = std::min(poiseuille_peak(lumen, gradient, mu), bernoulli);
-        expected.speed = std::max(expected.speed, viscous);
+        if (passage.drag > 0) {
+            const double let_out = lowest_held < highest ? Bounds::infinity : flow_through_resistances(laws, highest);
+            flow = std::min(let_out, gradient * length / (8 * std::numbers::pi * mu * passage.drag));
+            is_throttled = flow == let_out;
+            expected.speed = std::max(expected.speed, std::min(speed_of(flow), bernoulli));
+        } else {
+            expected.speed = std::max(expected.speed, std::min(poiseuille_peak(lumen, gradient, mu), bernoulli));
+        }
     }
     for (const auto& [name, velocity] : config.wall.velocity) expected.speed = std::max(expected.speed, norm(velocity));
     if (config.initial.speed) {
@@ -97,9 +125,9 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
         throw DeckError("numerics.reference_speed: nothing in the deck moves the blood, so no speed can be estimated; give one");
 
     // What flows loses pressure: the dynamic one and Poiseuille's.
-    const double a = 0.5 * width;
-    const double loss = 0.5 * rho * expected.speed * expected.speed +
-                        (is_driven_by_flow ? expected.speed * (lumen.planar ? 2 : 4) * mu / (a * a) * length : 0);
+    const double dynamic = 0.5 * rho * expected.speed * expected.speed;
+    double loss = dynamic + (is_driven_by_flow || is_throttled ? viscous_loss(lumen, flow, expected.speed, mu) : 0);
+    if (is_throttled) loss = std::min(loss, driving + dynamic), driving = 0;
     const bool is_fixed = config.numerics.pressure_reference == deck::PressureReference::fixed;
     expected.pressure_range = std::max(driving, is_fixed ? offset + resistance * inflow : 0.0) + loss;
     return expected;

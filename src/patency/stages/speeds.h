@@ -20,7 +20,8 @@ struct Expected {
 };
 
 /// From the openings' velocities and flows, through the narrowest section; else from the pressures that drive: the
-/// smaller of Poiseuille's and Bernoulli's; walls, body force and initial velocity alike.
+/// smallest of Poiseuille's, Bernoulli's and what the resistances behind the outlets let out; walls, body force and initial
+/// velocity alike.
 Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws, const FluidMaterial& material);
 
 /// What the estimate of a vessel says of the same, at the height of the pulse that drives it; it overrules what was told from

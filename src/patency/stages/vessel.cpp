@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "patency/base/errors.h"
 #include "patency/io/surface_file.h"
+#include "patency/physics/open_ends/bed.h"
 #include "patency/shape/exact_distance.h"
 #include "patency/shape/network_lumen.h"
 #include "patency/stages/lumen_of_case.h"
@@ -50,6 +52,50 @@ void follow_vessel(Vessel& vessel) {
     }
 }
 
+double lumen_area(const VesselAlong& along, std::size_t line, std::size_t point) {
+    const CrossSection& s = along.sections[line][point];
+    if (s.is_closed && s.holds_place && !s.is_shared && s.area > 0) return s.area;
+    const double radius = along.lines.lines[line].points[point].radius;
+    return std::numbers::pi * radius * radius;
+}
+
+double narrowest_diameter(const VesselAlong& along) {
+    double radius = Bounds::infinity;
+    for (const Centreline& line : along.lines.lines)
+        for (const CentrelinePoint& point : line.points) radius = std::min(radius, point.radius);
+    return 2 * radius;
+}
+
+Passage passage_of(const VesselAlong& along, const std::vector<double>& outlet_diameters) {
+    const std::vector<Centreline>& lines = along.lines.lines;
+    const std::vector<double> shares = murray_shares(outlet_diameters, 3);
+    Passage passage{Bounds::infinity, 0};
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+        std::vector<std::size_t> shared;
+        for (const Centreline& other : lines) shared.push_back(shared_points(lines[j], other));
+        double drag = 0;
+        for (std::size_t k = 0; k < lines[j].points.size(); ++k) {
+            double share = 0;
+            for (std::size_t i = 0; i < lines.size(); ++i) share += i == j || k < shared[i] ? shares[i] : 0;
+            const double area = lumen_area(along, j, k);
+            passage.tightest_area = std::min(passage.tightest_area, area / share);
+            if (k > 0) drag += share * (lines[j].points[k].arc - lines[j].points[k - 1].arc) / (area * area);
+        }
+        passage.drag = std::max(passage.drag, drag);
+    }
+    return passage;
+}
+
+Widths widths_of(const VesselAlong& along, const Branch& branch) {
+    Widths w{Bounds::infinity, 0, 0};
+    for (std::size_t k = branch.first; k <= branch.last; ++k) {
+        const double diameter = 2 * along.lines.point(branch, k).radius;
+        w.least = std::min(w.least, diameter), w.most = std::max(w.most, diameter);
+        w.mean += diameter / double(branch.last - branch.first + 1);
+    }
+    return w;
+}
+
 namespace {
 
 void expect_usable(const Vessel& vessel, const deck::Geometry& geometry) {
@@ -65,6 +111,11 @@ Vessel open_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     Vessel vessel = check_vessel(read_surface(g.surface.value(), g.unit.value_or(""), g.space.value_or("")));
     expect_usable(vessel, g);
+    try {
+        if (g.inlet) choose_inlet(vessel.openings, *g.inlet);
+    } catch (const UsageError& error) {
+        throw DeckError(fmt::format("geometry.inlet: {}", error.what()));
+    }
     expect_vessel_size(vessel.openings.front(), g.unit.value_or("mm"));
     return vessel;
 }

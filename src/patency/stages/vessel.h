@@ -10,6 +10,7 @@
 #include "patency/config/case.h"
 #include "patency/shape/lesions.h"
 #include "patency/shape/network.h"
+#include "patency/shape/passage.h"
 #include "patency/shape/surface_check.h"
 #include "patency/shape/surface_openings.h"
 
@@ -21,6 +22,20 @@ struct VesselAlong {
     std::vector<std::vector<CrossSection>> sections;   ///< per line and point
     Assessment assessment;
 };
+
+/// The section at a point of a line, or the disc of the largest sphere where a plane across it cuts another branch or no
+/// closed outline [m^2].
+double lumen_area(const VesselAlong& along, std::size_t line, std::size_t point);
+/// Diameter of the smallest of the largest spheres along all lines [m].
+double narrowest_diameter(const VesselAlong& along);
+/// When outlets of these diameters [m], one per line, share the flow by Murray's law.
+Passage passage_of(const VesselAlong& along, const std::vector<double>& outlet_diameters);
+
+/// Diameters of the largest spheres along a branch, without its bifurcations [m].
+struct Widths {
+    double least, mean, most;
+};
+Widths widths_of(const VesselAlong& along, const Branch& branch);
 
 struct Vessel {
     std::size_t triangles_read = 0;

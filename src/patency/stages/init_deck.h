@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What patency init decides for a vessel: who brings the blood and who takes it, how long it takes to settle, which spacing
+// a budget pays for, and what that means. How it is written down is init_text.h's.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "patency/config/case.h"
+#include "patency/shape/stent_library.h"
+#include "patency/stages/estimate.h"
+#include "patency/stages/plan.h"
+#include "patency/stages/vessel.h"
+
+namespace patency {
+
+struct InitSettings {
+    deck::Geometry geometry;   ///< the surface or network, paths absolute
+    std::string name;          ///< of the case
+    Budget budget;
+};
+
+/// What brings blood to a vessel of this width, if nobody says.
+struct InletDefault {
+    double widest;   ///< for inlets up to this diameter [m]
+    deck::BedState state;
+    double velocity;      ///< mean over the inlet's section [m/s]
+    const char* what;     ///< "a coronary artery at hyperaemia"
+    const char* source;   ///< where the velocity comes from
+};
+const InletDefault& inlet_default(double diameter);
+
+/// An outlet that is too narrow for the spacing that the budget alone allows: from where on its line it would have to be cut.
+struct Cut {
+    std::size_t opening;
+    double arc, end_arc;   ///< from the inlet [m]
+};
+
+/// An opening so near to a bifurcation or a lesion that what is prescribed there disturbs it.
+struct ShortEnd {
+    std::size_t opening;
+    double length;   ///< of undisturbed vessel [m]
+};
+
+/// A design of the library for a lesion.
+struct StentProposal {
+    std::size_t lesion;   ///< in Assessment::lesions
+    const StentDesign* design;
+    double arc;    ///< of the lesion's middle, from its branch's start [m]
+    bool covers;   ///< it is as long as the lesion
+};
+
+struct InitPlan {
+    deck::Case config;   ///< the deck
+    const InletDefault* inlet;
+    Estimate estimate;   ///< of the deck
+    double bed_flow;     ///< what the bed takes without a loss in the vessel [m^3/s]
+    double settling;     ///< until a flow from rest is steady [s]
+    Budget budget;
+    double budget_spacing;   ///< that the budget alone allows [m]
+    FlowPlan price;          ///< of the deck
+    double fine_spacing;     ///< at which nothing is under-resolved [m]
+    FlowPlan fine_price;
+    std::vector<Widths> widths;   ///< as the vessel's branches
+    std::vector<Cut> cuts;
+    std::vector<ShortEnd> short_ends;
+    std::optional<StentProposal> stent;   ///< for the worst lesion; none where no design fits
+
+    double across(double diameter) const { return diameter / config.numerics.spacing; }
+    bool is_within_budget() const { return price.seconds <= budget.seconds && price.memory <= budget.memory; }
+};
+
+/// Fewer particles across are marked as under-resolved.
+inline constexpr double fewest_resolved = 8;
+
+/// Decides everything for a vessel that was followed. The spacing is the finest that the budget pays for, but no coarser than
+/// the openings bear, whatever that costs. Throws GeometryError if no flow can be set up in it.
+InitPlan plan_case(const Vessel& vessel, const InitSettings& settings);
+
+}   // namespace patency

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency init from outside: its deck goes through check and estimate as it is; what it refuses; and the vessels that
+// others published.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "patency/io/summary.h"
+#include "patency/io/surface_file.h"
+#include "tests/app/program.h"
+#include "tests/io/scratch_folder.h"
+#include "tests/shape/surfaces.h"
+
+namespace patency {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Init : public ::testing::Test {
+protected:
+    std::string tube(const char* name = "vessel.vtp") {
+        write_surface(folder_ / name,
+                      make_tube_mesh({.radius = 1.5e-3, .length = 12e-3, .start_cap = true, .end_cap = true}));
+        return (folder_ / name).string();
+    }
+    std::string deck() const { return (folder_ / "case.yaml").string(); }
+    ScratchFolder folder_;
+};
+
+TEST_F(Init, ItsDeckGoesThroughCheckAndEstimate) {
+    const Result result =
+        patency(fmt::format("init '{}' --unit mm --budget 1min -o {}", tube("my vessel #1.vtp"), deck()));
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char* word : {"outlet_1", "Lesions: none", "Price, for a budget of 60 s", "Written: "})
+        EXPECT_TRUE(has(result.output, word)) << word;
+    const Result check = patency("check " + deck());
+    EXPECT_EQ(check.exit_code, 0) << check.output;
+    const Result estimate = patency(fmt::format("estimate {} -o {}", deck(), (folder_ / "out").string()));
+    EXPECT_EQ(estimate.exit_code, 0) << estimate.output;
+    // From another folder too: the path is relative to the deck.
+    EXPECT_TRUE(has(contents_of(deck()), "surface: \"my vessel #1.vtp\""));
+    // The bed takes 0.279 m/s through 3 mm.
+    EXPECT_NEAR(read_summary(folder_ / "out/summary.json")["openings"]["outlet_1"]["flow_m3_per_s"].get<double>(),
+                0.279 * M_PI * 2.25e-6, 2e-8);
+}
+
+TEST_F(Init, NeverReplacesADeckUnlessTold) {
+    put(deck(), "mine");
+    const std::string command = fmt::format("init {} --unit mm --budget 10s -o {}", tube(), deck());
+    EXPECT_EQ(patency(command).exit_code, 7);
+    EXPECT_EQ(contents_of(deck()), "mine");
+    EXPECT_EQ(patency(command + " --force").exit_code, 0);
+    EXPECT_TRUE(has(contents_of(deck()), "version: 1"));
+    EXPECT_EQ(patency(fmt::format("init {} --unit mm -o {}/no/case.yaml", tube(), folder_.path().string())).exit_code,
+              7);
+}
+
+TEST_F(Init, RefusesWhatInspectRefuses) {
+    const std::string out = " -o " + deck();
+    EXPECT_EQ(patency("init " + tube() + out).exit_code, 2);   // no unit
+    const Result metres = patency("init --unit m " + tube() + out);
+    EXPECT_EQ(metres.exit_code, 4);
+    EXPECT_TRUE(has(metres.output, "Did you mean"));
+    EXPECT_EQ(patency("init --unit mm --budget 5 " + tube() + out).exit_code, 2);
+    EXPECT_EQ(patency("init --unit mm --budget '-5 s' " + tube() + out).exit_code, 2);
+    EXPECT_EQ(patency("init --unit mm --inlet 7 " + tube() + out).exit_code, 2);
+    EXPECT_EQ(patency("init --unit mm " + (folder_ / "none.stl").string() + out).exit_code, 7);
+    Surface holed = make_tube_mesh({});
+    holed.triangles.erase(holed.triangles.begin() + 1000);
+    holed.face_ids.clear();
+    write_surface(folder_ / "holed.vtp", holed);
+    const Result refused = patency("init --unit mm " + (folder_ / "holed.vtp").string() + out);
+    EXPECT_EQ(refused.exit_code, 4);
+    EXPECT_TRUE(has(refused.output, "hole"));
+    EXPECT_FALSE(fs::exists(deck()));
+}
+
+TEST_F(Init, OfTheNetworkThatComesWithTheProgram) {
+    const Result result =
+        patency(fmt::format("init {}/cases/coronary_bifurcation.json --budget 5min -o {}", PATENCY_SOURCE_DIR, deck()));
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_TRUE(has(contents_of(deck()), "outlet_large: {type: resistance}"));
+    const Result estimate = patency("estimate " + deck());
+    EXPECT_EQ(estimate.exit_code, 0) << estimate.output;
+    EXPECT_EQ(patency("check " + deck()).exit_code, 0);
+}
+
+TEST_F(Init, OfVesselsThatOthersPublished) {
+    const fs::path data = fs::path(PATENCY_SOURCE_DIR) / "../shared/data/vessels";
+    if (!fs::exists(data)) GTEST_SKIP() << "no ../shared beside the project";
+    for (const auto& [name, unit, code] : {std::tuple("internal_carotid_C0015mod.vtp", "mm", 0),
+                                           {"aortoiliac_vmtk_open_ends.stl", "mm", 0},
+                                           {"aortoiliac_simvascular_capped.vtp", "cm", 0},
+                                           {"ideal_Y_bifurcation.stl", "mm", 0},
+                                           {"coronary_LCA_stenosed_m1.stl", "mm", 0},
+                                           {"coronary_phantom_7openings.stl", "mm", 0},
+                                           {"DIRTY_cerebral_aneurysm_small_holes.stl", "m", 4}}) {
+        const Result result =
+            patency(fmt::format("init {} --unit {} -o {} --force", (data / name).string(), unit, deck()));
+        EXPECT_EQ(result.exit_code, code) << name << ": " << result.output;
+        if (code != 0) continue;
+        const Result check = patency("check " + deck());
+        EXPECT_EQ(check.exit_code, 0) << name << ": " << check.output;
+    }
+}
+
+}   // namespace
+}   // namespace patency
