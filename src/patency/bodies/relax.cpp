@@ -77,7 +77,8 @@ public:
         for (int step = 0; step < settings_.steps && mean_motion > settings_.tolerance; ++step) {
             compute_push();
             move = advance();
-            mean_motion = std::sqrt(sum_of(count_, [&](std::size_t i) { return dot(motion_[i], motion_[i]); }) / double(count_));
+            const double squares = sum_of(count_, [&](std::size_t i) { return dot(motion_[i], motion_[i]); });
+            mean_motion = std::sqrt(squares / double(count_));
             if (2 * moved_since_rows() >= skin)
                 make_rows();
             else
@@ -269,13 +270,9 @@ private:
         push += -face_.push(from_face) * gradient;
         density += face_.density(from_face);
         if (from_end >= support) return;
-        for (double u = std::max(0.0, from_face) + 0.5; u < support; u += 1)
-            for (double v = std::max(0.0, from_end) + 0.5; v < support; v += 1)
-                for (int w = lumen_.planar ? 0 : -2; w <= (lumen_.planar ? 0 : 2); ++w) {
-                    const double r = std::sqrt(u * u + v * v + w * w), slope = factor_ * shape_of_slope(r);
-                    push += slope * (u * gradient + v * end_normal);
-                    density -= factor_ * shape_of_kernel(r);
-                }
+        const BehindBothFaces twice = behind_both_faces(from_face, gradient, from_end, end_normal, lumen_.planar);
+        push -= twice.push;
+        density -= twice.density;
     }
 
     // Accelerated descent (heavy ball). The stiffest mode of an even set has k^2 W(k) of about 0.6 / spacing^2, so that
