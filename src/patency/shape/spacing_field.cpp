@@ -197,11 +197,16 @@ void SpacingField::Grid::limit_growth(double growth) {
                 const int c = int(m % cells), i = first[0] + (c >> 6), j = first[1] + ((c >> 3) & 7),
                           k = first[2] + (c & 7);
                 float least = nodes_[m];
-                for (const auto& [e, rise] : before) {
-                    const float* other = find(i + side * e[0], j + side * e[1], k + side * e[2]);
-                    if (other) least = std::min(least, *other + rise);
+                const auto is_inner = [](int at) { return (at & 7) > 0 && (at & 7) < 7; };
+                if (is_inner(i) && is_inner(j) && is_inner(k)) {   // all in one brick
+                    for (const auto& [e, rise] : before)
+                        least = std::min(least, (&nodes_[m])[side * (64 * e[0] + 8 * e[1] + e[2])] + rise);
+                } else {
+                    for (const auto& [e, rise] : before)
+                        if (const float* other = find(i + side * e[0], j + side * e[1], k + side * e[2]))
+                            least = std::min(least, *other + rise);
                 }
-                changed = changed || least < nodes_[m] * (1 - 1e-6f);
+                changed = changed || least < nodes_[m] * (1 - 1e-3f);
                 nodes_[m] = least;
             }
     }
