@@ -204,8 +204,7 @@ private:
         return seen_[i].depth;
     }
 
-    // push = -sum_j s_j^3 grad W_ij, with W of the pair's mean spacing: for n = 1/s^3 it vanishes to first order in the
-    // growth of s, because the integral of r W' does not depend on the kernel's size.
+    // -sum_j s_j^3 grad W_ij, with W of the pair's mean spacing. THEORY.md (17.5)
     void compute_push() {
         records_.reset(count_ + 1);
         for_each_index(count_, [&](std::size_t i) { records_[i] = {x_[i].x, x_[i].y, x_[i].z, spacing_[i]}; });
