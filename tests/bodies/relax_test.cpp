@@ -12,6 +12,8 @@
 #include <string>
 
 #include "patency/base/errors.h"
+#include "patency/shape/surface_lumen.h"
+#include "tests/shape/surfaces.h"
 
 namespace patency {
 namespace {
@@ -154,6 +156,38 @@ TEST_F(Relax, givesTheSameBitsForAnyNumberOfThreads) {
         EXPECT_EQ(one.fluid, many.fluid);
         EXPECT_EQ(one.wall, many.wall);
     }
+}
+
+// A bent tube of triangles: its distance is made by all threads too.
+TEST_F(Relax, fitsASurfaceWithTheSameBitsForAnotherNumberOfThreads) {
+    Surface bent = make_tube_mesh({.radius = 1e-3, .length = 4e-3, .around = 64, .along = 40});
+    bent.face_ids.clear();
+    const double bend = 4e-3, dp = 0.25e-3;
+    for (Vec3& x : bent.points) {
+        const double angle = x.x / bend;
+        x = {(bend - x.y) * std::sin(angle), bend - (bend - x.y) * std::cos(angle), x.z};
+    }
+    const CheckedSurface checked = check_surface(std::move(bent));
+    const auto openings = find_openings(checked);
+    const auto make = [&](int threads, RelaxQuality& quality) {
+        omp_set_num_threads(threads);
+        const Lumen lumen =
+            make_surface_lumen(checked, openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp});
+        const FittedPoints points = make_relaxed_points(
+            lumen, dp, {.wall_thickness = 3.1 * dp, .fluid_extension = 4 * dp, .wall_extension = 6.6 * dp}, &quality);
+        EXPECT_NEAR(double(points.fluid_count[0]) * points.volume, lumen.volume, 1e-6 * lumen.volume);
+        for (const Vec3& x : points.fluid) EXPECT_LT(lumen.distance.value(x), 0.1 * dp);
+        for (const Vec3& x : points.wall) EXPECT_GT(lumen.distance.value(x), -0.1 * dp);
+        return points;
+    };
+    RelaxQuality q, other;
+    const FittedPoints one = make(1, q);
+    EXPECT_LT(std::hypot(q.density_spread, q.mean_density - 1), 0.006);
+    EXPECT_LT(q.largest_density_error, 0.03);
+    const FittedPoints three = make(3, other);
+    EXPECT_EQ(one.fluid, three.fluid);
+    EXPECT_EQ(one.wall, three.wall);
+    EXPECT_EQ(q.residual, other.residual);
 }
 
 TEST_F(Relax, refusesSettingsThatDoNotFitTheLumen) {

@@ -9,6 +9,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/shape/distance_shapes.h"
+#include "patency/shape/exact_distance.h"
 #include "tests/shape/laws.h"
 #include "tests/shape/surfaces.h"
 
@@ -91,6 +92,34 @@ TEST(SurfaceDistance, OfABoxIsExactOutsideItsEdgesAndItsMiddle) {
         EXPECT_NEAR(is.curvature, 0, 1);   // of 1 / voxel = 9000
     }
     EXPECT_GT(faces, 1000);
+}
+
+// Also on the axis, where all triangles are equally far, and with triangles without area among them.
+TEST(SurfaceDistance, AtTheCornersOfVoxelsIsTheTrianglesOwn) {
+    Surface mesh = make_torus_mesh(3e-3, 1e-3, 48, 20);
+    mesh.points.push_back(0.5 * (mesh.points[mesh.triangles[0][0]] + mesh.points[mesh.triangles[0][1]]));
+    const auto middle = std::uint32_t(mesh.points.size() - 1);
+    const auto [a, b, c] = mesh.triangles[0];
+    mesh.triangles[0] = {a, middle, c};
+    mesh.triangles.push_back({middle, b, c});
+    mesh.triangles.push_back({a, b, middle});
+    const double voxel = 0.09e-3, outside = 0.7e-3;
+    const SignedDistance grid = make_surface_distance(mesh, voxel, outside), exact = make_exact_distance(mesh);
+    const Vec3 low = bounds(mesh).low;
+    int deep = 0;
+    for (const Vec3& x : random_points(grown(bounds(mesh), outside), 4000)) {
+        const Vec3 place = (x - low) / voxel;
+        const Vec3 corner = low + voxel * Vec3{std::round(place.x), std::round(place.y), std::round(place.z)};
+        const double must = exact.value(corner);
+        if (must > outside) continue;
+        deep += must < -8 * voxel;
+        const double is = grid.value(corner);
+        if (std::abs(must) > 0.05 * voxel) {
+            ASSERT_EQ(is < 0, must < 0);
+        }
+        ASSERT_NEAR(std::abs(is), std::abs(must), 1e-6 * std::abs(must) + 1e-12);   // kept in float
+    }
+    EXPECT_GT(deep, 30);
 }
 
 TEST(SurfaceDistance, OfATubeHasTheStatedErrorAndHalvingTheVoxelQuartersIt) {

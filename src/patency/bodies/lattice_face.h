@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernel of relaxation on a lattice of unit spacing, and what a lattice behind a flat face adds to a point before
-// it. Private to relax.cpp; everything is in units of the spacing, so a point's volume is 1.
+// it. Private to relax.cpp and graded_points.cpp; everything is in units of the spacing, so a point's volume is 1.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "patency/base/vec.h"
 
 namespace patency::relaxation {
 
@@ -55,6 +57,25 @@ private:
     }
     double push_[count + 1] = {}, density_[count + 1] = {};
 };
+
+// What the lattices behind two faces across each other add twice: the point is at a before the one and at b before the other,
+// whose normals point out.
+struct BehindBothFaces {
+    Vec3 push{};
+    double density = 0;
+};
+inline BehindBothFaces behind_both_faces(double a, const Vec3& out_of_a, double b, const Vec3& out_of_b, bool planar) {
+    BehindBothFaces both;
+    const double factor = kernel_factor(planar);
+    for (double u = std::max(0.0, a) + 0.5; u < support; u += 1)
+        for (double v = std::max(0.0, b) + 0.5; v < support; v += 1)
+            for (int w = planar ? 0 : -2; w <= (planar ? 0 : 2); ++w) {
+                const double r = std::sqrt(u * u + v * v + w * w);
+                both.push += -factor * shape_of_slope(r) * (u * out_of_a + v * out_of_b);
+                both.density += factor * shape_of_kernel(r);
+            }
+    return both;
+}
 
 inline double lattice_density(bool planar) {
     double sum = 0;

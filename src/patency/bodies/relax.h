@@ -16,7 +16,8 @@ struct RelaxSettings {
     double wall_thickness = 0;       ///< the outer face of the wall's points [m]
     std::vector<double> fluid_end;   ///< per opening: the plane past it that no point crosses, as the opening's own [m]
     std::vector<double> wall_end;    ///< per opening: the flat face where all points end [m]
-    int steps = 150;                 ///< spread and first layer hardly change after 100
+    int steps = 150;                 ///< at most
+    double tolerance = 0.005;        ///< it ends when points move less in a step, root mean square in spacings
     double clearance = 0.5;          ///< least distance to the wall, in spacings, on both sides
 };
 

@@ -6,15 +6,14 @@
 
 namespace patency {
 
-namespace {
-
-// A step that is smooth over -1 < t < 1, and its slope. Its first and second moments are those of the sharp step, so
-// that the volume below a distance comes out right although the area changes with the distance (a curved wall).
 double smooth_step(double t) {
     if (std::abs(t) >= 1) return t > 0;
     const double q = t * t;
     return 0.5 + 105.0 / 64 * t * (1 - q * (5.0 / 3 - q * (7.0 / 5 - q * (3.0 / 7))));
 }
+
+namespace {
+
 double slope_of_smooth_step(double t) {
     const double q = std::min(t * t, 1.0);
     return 105.0 / 64 * (1 - q) * (1 - q) * (1 - 3 * q);

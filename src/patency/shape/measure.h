@@ -18,4 +18,8 @@ struct Measures {
 /// The distance may be a bound inside, but its zero set must be exact.
 Measures measure(const Lumen& lumen, double resolution);
 
+/// A step from 0 to 1 that is smooth over -1 < t < 1. Its first and second moments are those of the sharp step, so that the
+/// volume below a distance, summed over places in space, comes out right although the area changes with the distance.
+double smooth_step(double t);
+
 }  // namespace patency

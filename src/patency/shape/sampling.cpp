@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "patency/base/errors.h"
+#include "patency/base/parallel.h"
 #include "patency/shape/measure.h"
 
 namespace patency {
@@ -27,8 +29,7 @@ struct Candidate {
 };
 
 // The box around the lumen and its continuations, not past the ends of periodic axes.
-Bounds region_of(const Lumen& lumen, const PointsExtent& extent, double spacing) {
-    const double margin = extent.wall_thickness + spacing;
+Bounds region_of(const Lumen& lumen, const PointsExtent& extent, double spacing, double margin) {
     Bounds region = grown(lumen.bounds, margin);
     for (const Opening& opening : lumen.openings) {
         const Vec3 end = opening.centre + (extent.wall_extension + spacing) * opening.normal;
@@ -50,14 +51,94 @@ double whole_cells(const Lattice& lattice, const Opening& opening, double length
     return length;
 }
 
+// The lattice points of a box: (k + 1/2) cells along each axis, a rounding error included.
+struct LatticeRange {
+    Lattice lattice;
+    std::array<long, 3> first, last;
+
+    LatticeRange(const Lattice& of, const Bounds& region) : lattice(of) {
+        const Mat3 back = transpose(lattice.frame.rotation);
+        const Bounds own = moved(region, {back, -(back * lattice.frame.origin)});
+        const double low[3] = {own.low.x, own.low.y, own.low.z}, high[3] = {own.high.x, own.high.y, own.high.z};
+        const double cell[3] = {lattice.cell.x, lattice.cell.y, lattice.cell.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            first[axis] = long(std::ceil(low[axis] / cell[axis] - 0.5 - 1e-9));
+            last[axis] = long(std::floor(high[axis] / cell[axis] - 0.5 + 1e-9));
+        }
+        if (lattice.planar) first[2] = last[2] = 0;
+    }
+    Vec3 place(double i, double j, double k) const {
+        return lattice.frame.place({(i + 0.5) * lattice.cell.x, (j + 0.5) * lattice.cell.y,
+                                    lattice.planar ? 0.0 : (k + 0.5) * lattice.cell.z});
+    }
+};
+
+// The lattice points nearer to the wall than `outermost`, x fastest, and how much of the space up to `thickness` outside
+// of it lies behind the openings.
+struct LumenCandidates {
+    std::vector<Candidate> points;
+    double cells_within_thickness = 0;
+};
+
+LumenCandidates find_candidates(const Lumen& lumen, const Lattice& lattice, const PointsExtent& extent,
+                                const FittedPoints& ends, double spacing, double outermost, double band) {
+    // A distance changes by at most the length of the way: blocks that are too far away are left out.
+    constexpr long side = 3;
+    const LatticeRange range(lattice, region_of(lumen, extent, spacing, outermost + spacing));
+    const auto [i0, j0, k0] = range.first;
+    const auto [i1, j1, k1] = range.last;
+    if (i1 < i0 || j1 < j0 || k1 < k0) return {};
+    const double reach = outermost + norm(Vec3{lattice.cell.x, lattice.cell.y, lattice.planar ? 0 : lattice.cell.z});
+    const std::size_t slabs = std::size_t((k1 - k0) / side + 1);
+    std::vector<LumenCandidates> of_slab(slabs);
+    const auto visit = [&](const Vec3& x, LumenCandidates& found) {
+        const double depth = lumen.distance.value(x);
+        if (depth >= outermost) return;
+        double share = smooth_step((extent.wall_thickness - depth) / band);
+        for (const Opening& opening : lumen.openings) {
+            if (share == 0) break;
+            const auto [s, radial] = opening_coordinates(opening, x);
+            if (s > -band && s < lumen.extension + 2 * opening.reach + outermost && norm(radial) < opening.reach + outermost)
+                share *= smooth_step(-s / band);
+        }
+        found.cells_within_thickness += share;
+        const int opening = opening_beyond(lumen, x, outermost);
+        std::size_t part = 0;
+        if (opening >= 0) {
+            const std::size_t k = std::size_t(opening);
+            const double s = opening_coordinates(lumen.openings[k], x).s;
+            if (s > ends.wall_end[k]) return;
+            part = 2 * k + (s <= ends.fluid_end[k] ? 1 : 2);
+        }
+        found.points.push_back({x, depth, part});
+    };
+    for_each_task(slabs, [&](std::size_t slab) {
+        const long low = k0 + side * long(slab), high = std::min(k1, low + side - 1);
+        const long rows = (j1 - j0) / side + 1, blocks = (i1 - i0) / side + 1;
+        std::vector<char> is_near(std::size_t(rows * blocks));
+        for (long b = 0; b < rows; ++b)
+            for (long a = 0; a < blocks; ++a) {
+                const Vec3 middle = range.place(double(i0 + side * a) + 1, double(j0 + side * b) + 1, double(low) + 1);
+                is_near[std::size_t(b * blocks + a)] = lumen.distance.value(middle) < reach;
+            }
+        for (long k = low; k <= high; ++k)
+            for (long j = j0; j <= j1; ++j)
+                for (long i = i0; i <= i1; ++i)
+                    if (is_near[std::size_t((j - j0) / side * blocks + (i - i0) / side)])
+                        visit(range.place(double(i), double(j), double(k)), of_slab[slab]);
+    });
+    LumenCandidates all;
+    for (const LumenCandidates& slab : of_slab) {
+        all.points.insert(all.points.end(), slab.points.begin(), slab.points.end());
+        all.cells_within_thickness += slab.cells_within_thickness;
+    }
+    return all;
+}
+
 // The volume between the wall and its outer face, per part [m^3].
-std::vector<double> wall_volumes(const Lumen& lumen, double spacing, double thickness, const FittedPoints& ends) {
+std::vector<double> wall_volumes(const Lumen& lumen, double thickness, double within, const FittedPoints& ends) {
     if (thickness <= 0) return std::vector<double>(1 + 2 * lumen.openings.size(), 0.0);
-    Lumen outer = lumen;
-    outer.distance = offset_by(lumen.distance, thickness);
-    outer.bounds = grown(lumen.bounds, thickness);
-    for (Opening& opening : outer.openings) opening.reach += thickness;
-    std::vector<double> volumes{measure(outer, 0.5 * spacing).volume - lumen.volume};
+    std::vector<double> volumes{std::max(0.0, within - lumen.volume)};
     for (std::size_t k = 0; k < lumen.openings.size(); ++k) {
         const double r = lumen.openings[k].radius;
         const double ring = std::numbers::pi * thickness * (2 * r + thickness);
@@ -87,30 +168,19 @@ Lattice fitted_lattice(const Lumen& lumen, double spacing) {
 
 std::vector<Vec3> lattice_points(const Lattice& lattice, const Bounds& region,
                                  const std::function<bool(const Vec3&)>& wanted) {
-    const Mat3 back = transpose(lattice.frame.rotation);
-    const Bounds own = moved(region, {back, -(back * lattice.frame.origin)});
-    const auto range = [](double low, double high, double cell) {
-        // The points (k + 1/2) cell in [low, high], a rounding error included.
-        return std::array<long, 2>{long(std::ceil(low / cell - 0.5 - 1e-9)), long(std::floor(high / cell - 0.5 + 1e-9))};
-    };
-    const auto [i0, i1] = range(own.low.x, own.high.x, lattice.cell.x);
-    const auto [j0, j1] = range(own.low.y, own.high.y, lattice.cell.y);
-    auto [k0, k1] = range(own.low.z, own.high.z, lattice.cell.z);
-    if (lattice.planar) k0 = k1 = 0;
+    const LatticeRange range(lattice, region);
     std::vector<Vec3> points;
-    for (long k = k0; k <= k1; ++k)
-        for (long j = j0; j <= j1; ++j)
-            for (long i = i0; i <= i1; ++i) {
-                const Vec3 own_point{(double(i) + 0.5) * lattice.cell.x, (double(j) + 0.5) * lattice.cell.y,
-                                     lattice.planar ? 0.0 : (double(k) + 0.5) * lattice.cell.z};
-                const Vec3 x = lattice.frame.place(own_point);
+    for (long k = range.first[2]; k <= range.last[2]; ++k)
+        for (long j = range.first[1]; j <= range.last[1]; ++j)
+            for (long i = range.first[0]; i <= range.last[0]; ++i) {
+                const Vec3 x = range.place(double(i), double(j), double(k));
                 if (wanted(x)) points.push_back(x);
             }
     return points;
 }
 
 std::vector<Vec3> make_lattice(const Lumen& lumen, double spacing) {
-    return lattice_points(fitted_lattice(lumen, spacing), region_of(lumen, {}, spacing),
+    return lattice_points(fitted_lattice(lumen, spacing), region_of(lumen, {}, spacing, spacing),
                           [&](const Vec3& x) { return contains(lumen, x); });
 }
 
@@ -129,27 +199,17 @@ FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const Points
             whole_cells(lattice, opening, std::max(extent.wall_extension, extent.fluid_extension)));
     }
 
-    std::vector<Candidate> candidates;
     const bool fits = lattice_fits(lumen);
-    // Points a little farther out may be needed to make up a volume.
-    const double outermost = extent.wall_thickness + (fits ? 0 : spacing);
-    lattice_points(lattice, region_of(lumen, extent, spacing), [&](const Vec3& x) {
-        const double depth = lumen.distance.value(x);
-        if (depth >= outermost) return false;
-        const int opening = opening_beyond(lumen, x, outermost);
-        if (opening < 0) {
-            candidates.push_back({x, depth, 0});
-            return false;   // they are kept here, with their depths
-        }
-        const std::size_t k = std::size_t(opening);
-        const double s = opening_coordinates(lumen.openings[k], x).s;
-        if (s <= result.wall_end[k]) candidates.push_back({x, depth, 2 * k + (s <= result.fluid_end[k] ? 1 : 2)});
-        return false;
-    });
+    // Points a little farther out may be needed to make up a volume. A step that is smooth over two spacings to both sides
+    // counts what lies within to 2e-4; over one and a half it is 5e-4.
+    const double band = fits ? 0 : 2 * spacing;
+    const auto [candidates, within] =
+        find_candidates(lumen, lattice, extent, result, spacing, extent.wall_thickness + band, band);
 
     std::vector<std::vector<std::size_t>> of_part(parts);   // in lattice order
     for (std::size_t k = 0; k < candidates.size(); ++k) of_part[candidates[k].part].push_back(k);
-    const auto shell = fits ? std::vector<double>(parts, Bounds::infinity) : wall_volumes(lumen, spacing, extent.wall_thickness, result);
+    const auto shell = fits ? std::vector<double>(parts, Bounds::infinity)
+                            : wall_volumes(lumen, extent.wall_thickness, within * result.volume, result);
     for (std::size_t part = 0; part < parts; ++part) {
         const std::size_t k = part == 0 ? 0 : (part - 1) / 2;
         const bool filler = part > 0 && part % 2 == 0;
@@ -160,18 +220,21 @@ FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const Points
         const std::size_t all = std::isinf(shell[part])
                                     ? of_part[part].size()
                                     : std::size_t(std::llround((volume + shell[part]) / result.volume));
-        std::vector<std::size_t> by_depth = of_part[part];
-        std::stable_sort(by_depth.begin(), by_depth.end(), [&](std::size_t a, std::size_t b) {
-            return candidates[a].depth < candidates[b].depth;
-        });
+        std::vector<std::size_t>& by_depth = of_part[part];
         if (by_depth.size() < inside)
             throw GeometryError(fmt::format("A spacing of {:.3g} m gives {} points where {} are needed: the lumen is "
                                             "too narrow for it; take a smaller spacing.",
                                             spacing, by_depth.size(), inside));
-        // In lattice order, for neighbours in space to be neighbours in memory.
+        // The deepest ones, in lattice order, for neighbours in space to be neighbours in memory.
         const std::size_t end = std::min(all, by_depth.size());
-        std::sort(by_depth.begin(), by_depth.begin() + std::ptrdiff_t(inside));
-        std::sort(by_depth.begin() + std::ptrdiff_t(inside), by_depth.begin() + std::ptrdiff_t(end));
+        const auto deepest_first = [&](std::size_t a, std::size_t b) {
+            return std::pair(candidates[a].depth, a) < std::pair(candidates[b].depth, b);
+        };
+        const auto at = [&](std::size_t n) { return by_depth.begin() + std::ptrdiff_t(n); };
+        if (end < by_depth.size()) std::nth_element(at(0), at(end), by_depth.end(), deepest_first);
+        if (inside < end) std::nth_element(at(0), at(inside), at(end), deepest_first);
+        std::sort(at(0), at(inside));
+        std::sort(at(inside), at(end));
         for (std::size_t n = 0; n < end; ++n)
             (n >= inside ? result.wall : filler ? result.filler : result.fluid).push_back(candidates[by_depth[n]].x);
         if (!filler) result.fluid_count.push_back(inside);

@@ -8,8 +8,8 @@
 
 namespace patency {
 
-/// At the corners of voxels [m] it is the triangles' own, `outside` [m] outside (ten voxels if that is 0) and five voxels
-/// inside; deeper it errs by a quarter of a voxel at most. Between the corners it is linear along each axis, so that the
+/// At the corners of voxels [m] it is the triangles' own, inside and up to `outside` [m] outside (ten voxels if that is 0).
+/// Between the corners it is linear along each axis, so that the
 /// value errs by less than voxel^2 / 8 times the sum of the curvatures of its level, THEORY.md (17.1); edges are cut by up to a quarter of a
 /// voxel. The gradient is that of central differences over two voxels, interpolated and made a unit vector; the
 /// curvature is its divergence, a mean over three voxels. Farther outside than `outside` the value is a lower bound and

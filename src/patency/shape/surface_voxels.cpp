@@ -3,13 +3,11 @@
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
+#include <omp.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
-#include <limits>
 #include <mutex>
 
-#include "patency/base/parallel.h"
 
 namespace patency {
 
@@ -32,26 +30,24 @@ struct SurfaceInVoxels {
 
 }   // namespace
 
-std::vector<VoxelBrick> make_voxel_bricks(const Surface& closed, const Vec3& origin, double voxel, double outermost) {
+struct VoxelSides::Grid {
+    openvdb::FloatGrid::Ptr grid;
+};
+
+VoxelSides::VoxelSides(const Surface& closed, const Vec3& origin, double voxel) {
     static std::once_flag is_started;
     std::call_once(is_started, [] { openvdb::initialize(); });
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(omp_get_max_threads()));
-    // The triangles' own distance, not one smoothed by solving for a slope of one.
+    // The narrowest band that needs no widening; sides are all that is asked for.
+    constexpr float band = 2;
     constexpr int flags = openvdb::tools::DISABLE_RENORMALIZATION;
-    const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-        SurfaceInVoxels{closed, origin, voxel}, *openvdb::math::Transform::createLinearTransform(1.0), float(outermost),
-        std::numeric_limits<float>::max(), flags);
-    std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
-    grid->tree().getNodes(leaves);
-    static_assert(openvdb::FloatTree::LeafNodeType::SIZE == VoxelBrick::cells);
-    std::vector<VoxelBrick> bricks(leaves.size());
-    for_each_index(leaves.size(), [&](std::size_t b) {
-        const openvdb::Coord o = leaves[b]->origin();
-        bricks[b].origin = {o.x(), o.y(), o.z()};
-        for (int n = 0; n < VoxelBrick::cells; ++n)
-            bricks[b].value[std::size_t(n)] = std::min(float(outermost), leaves[b]->getValue(openvdb::Index(n)));
-    });
-    return bricks;
+    grid_ = std::make_shared<const Grid>(Grid{openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+        SurfaceInVoxels{closed, origin, voxel}, *openvdb::math::Transform::createLinearTransform(1.0), band, band,
+        flags)});
+}
+
+bool VoxelSides::is_inside(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    return grid_->grid->constTree().getValue({i, j, k}) < 0;
 }
 
 }   // namespace patency

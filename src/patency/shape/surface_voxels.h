@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which side of a closed surface the corners of voxels are on, and how far, roughly: OpenVDB's answer in plain bricks.
-// Exact distances are surface_distance.h's.
+// Which side of a closed surface the corners of voxels are on: OpenVDB's answer. Distances are surface_distance.h's.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "patency/shape/surface.h"
 
 namespace patency {
 
-/// 8 x 8 x 8 corners; z varies fastest.
-struct VoxelBrick {
-    static constexpr int size = 8, cells = size * size * size;
-    std::array<std::int32_t, 3> origin;   ///< of its first corner, in voxels; multiples of 8
-    std::array<float, cells> value;       ///< [voxels], negative inside; the outermost for corners farther outside
-};
+/// Sides are found by flooding from outside, so that they are right also where parts of the surface touch.
+class VoxelSides {
+public:
+    /// Corner (0, 0, 0) is at origin [m]. The surface must be closed. The same for any number of threads.
+    VoxelSides(const Surface& closed, const Vec3& origin, double voxel);
 
-/// All bricks with a corner inside or less than `outermost` [voxels] outside. Corner (0, 0, 0) is at origin [m]. The sign
-/// is right; values within two voxels of the wall are too, those farther away may err by a quarter of a voxel, as each
-/// takes its triangle from its neighbours'. The same for any number of threads. The surface must be closed.
-std::vector<VoxelBrick> make_voxel_bricks(const Surface& closed, const Vec3& origin, double voxel, double outermost);
+    bool is_inside(std::int32_t i, std::int32_t j, std::int32_t k) const;   ///< safe to call from several threads
+
+private:
+    struct Grid;
+    std::shared_ptr<const Grid> grid_;
+};
 
 }   // namespace patency

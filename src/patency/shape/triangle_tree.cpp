@@ -20,6 +20,12 @@ double square_to_box(const Vec3& x, const Bounds& box) {
     return dot(d, d);
 }
 
+double square_to_farthest(const Vec3& x, const Bounds& box) {
+    const auto away = [](double at, double low, double high) { return std::max(at - low, high - at); };
+    const Vec3 d{away(x.x, box.low.x, box.high.x), away(x.y, box.low.y, box.high.y), away(x.z, box.low.z, box.high.z)};
+    return dot(d, d);
+}
+
 }   // namespace
 
 Vec3 nearest_place(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -71,21 +77,21 @@ std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
     return index;
 }
 
-double TriangleTree::square_distance(const Vec3& x, double bound) const {
-    double best = bound;
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& x, double bound) const {
+    Nearest best{bound, {}};
     std::pair<std::uint32_t, double> waiting[64];   // halving 2^32 triangles is 32 deep, two nodes each
     int count = 0;
     waiting[count++] = {0, square_to_box(x, nodes_[0].box)};
     while (count > 0) {
         const auto [index, square] = waiting[--count];
-        if (square >= best) continue;
+        if (square >= best.square) continue;
         const Node& node = nodes_[index];
         if (node.is_leaf()) {
             for (std::uint32_t k = node.begin; k < node.end; ++k) {
-                if (square_to_box(x, boxes_[order_[k]]) >= best) continue;
+                if (square_to_box(x, boxes_[order_[k]]) >= best.square) continue;
                 const auto& [a, b, c] = surface_.triangles[order_[k]];
-                const Vec3 d = x - nearest_place(x, surface_.points[a], surface_.points[b], surface_.points[c]);
-                best = std::min(best, dot(d, d));
+                const Vec3 place = nearest_place(x, surface_.points[a], surface_.points[b], surface_.points[c]), d = x - place;
+                if (dot(d, d) < best.square) best = {dot(d, d), place};
             }
             continue;
         }
@@ -96,6 +102,29 @@ double TriangleTree::square_distance(const Vec3& x, double bound) const {
         waiting[count++] = nearer;
     }
     return best;
+}
+
+void TriangleTree::find_rivals(const Vec3& place, const Vec3& x, double radius,
+                               std::vector<std::uint32_t>& found) const {
+    // For p = x + e and q of a box: |p - q|^2 - |p - place|^2 = |q - x|^2 - |place - x|^2 - 2 e (q - place).
+    const double own = dot(place - x, place - x) * (1 + 1e-12);
+    const auto is_beaten = [&](const Bounds& box) {
+        const double gain = square_to_box(x, box) - own;
+        return gain > 0 && gain * gain > 4 * radius * radius * square_to_farthest(place, box);
+    };
+    std::uint32_t waiting[64];
+    int count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+        const Node& node = nodes_[waiting[--count]];
+        if (is_beaten(node.box)) continue;
+        if (!node.is_leaf()) {
+            waiting[count++] = node.right, waiting[count++] = node.left;
+            continue;
+        }
+        for (std::uint32_t k = node.begin; k < node.end; ++k)
+            if (!is_beaten(boxes_[order_[k]])) found.push_back(order_[k]);
+    }
 }
 
 }   // namespace patency

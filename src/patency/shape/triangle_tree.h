@@ -27,9 +27,17 @@ public:
     const std::vector<std::uint32_t>& order() const { return order_; }   ///< triangles, those of a leaf side by side
     const Bounds& box(std::uint32_t triangle) const { return boxes_[triangle]; }
 
-    /// The square of the distance from x to the surface [m^2], or `bound` if that is less: the nearer the bound to the
-    /// answer, the sooner it is found. There must be a triangle.
-    double square_distance(const Vec3& x, double bound) const;
+    struct Nearest {
+        double square;   ///< of the distance [m^2]
+        Vec3 place;      ///< on the surface
+    };
+    /// The place nearest to x, if the square of its distance is less than `bound` [m^2]; otherwise that bound and some place.
+    /// The nearer the bound to the answer, the sooner it is found. There must be a triangle.
+    Nearest nearest(const Vec3& x, double bound) const;
+    double square_distance(const Vec3& x, double bound) const { return nearest(x, bound).square; }
+
+    /// Appends to `found` the triangles that may be nearer than `place` is to some point within `radius` [m] of x.
+    void find_rivals(const Vec3& place, const Vec3& x, double radius, std::vector<std::uint32_t>& found) const;
 
 private:
     std::uint32_t build(std::uint32_t begin, std::uint32_t end);

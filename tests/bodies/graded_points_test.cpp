@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/bodies/graded_points.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "patency/base/errors.h"
+#include "patency/bodies/graded_rows.h"
+
+namespace patency {
+
+namespace {
+
+constexpr SpacingSettings graded{.smallest = 0.08e-3, .largest = 0.5e-3, .across = 10};
+
+Lumen taper() { return make_cone({.length = 8e-3, .inlet_radius = 1.6e-3, .outlet_radius = 0.5e-3}); }
+
+}   // namespace
+
+TEST(GradedRows, HoldAllNeighboursAndNobodyElse) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<double> place(0, 1);
+    std::vector<Vec3> points;
+    std::vector<double> spacing;
+    for (int n = 0; n < 1003; ++n) {
+        const double a = place(engine), b = place(engine), c = place(engine);
+        points.push_back({a, b, c});
+        spacing.push_back(0.03 + 0.1 * a);
+    }
+    std::sort(points.begin(), points.end(), [](const Vec3& p, const Vec3& q) { return p.z < q.z; });
+    const double reach = 2.9;
+    GradedRows rows;
+    rows.find(points, spacing, reach);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const auto row = rows.row(i);
+        ASSERT_EQ(row.size() % GradedRows::lanes, 0u);
+        std::vector<std::uint32_t> is(row.begin(), row.end()), must;
+        std::erase(is, std::uint32_t(points.size()));
+        for (std::uint32_t j = 0; j < points.size(); ++j)
+            if (norm(points[i] - points[j]) < 0.5 * reach * (spacing[i] + spacing[j]) * (1 - 1e-6)) must.push_back(j);
+        ASSERT_TRUE(std::is_sorted(is.begin(), is.end()));
+        ASSERT_TRUE(std::includes(is.begin(), is.end(), must.begin(), must.end())) << i;
+        ASSERT_LE(is.size(), must.size() + 1);   // one may lie on the edge, in float
+    }
+}
+
+TEST(GradedPoints, AreEvenInsideAndAsFarApartAsTheFieldAsks) {
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);   // the sets are small, and the machine may be shared
+    const double c = std::cos(0.6), s = std::sin(0.6);
+    const Lumen fork = make_branches(
+        {.branches =
+             {{.points = {{-4e-3, 0, 0}, {0, 0, 0}}, .radii = {1.5e-3, 1.4e-3}, .start = "inlet", .end = ""},
+              {.points = {{0, 0, 0}, {6e-3 * c, 6e-3 * s, 0}}, .radii = {1.2e-3, 0.9e-3}, .start = "", .end = "left"},
+              {.points = {{0, 0, 0}, {6e-3 * c, -6e-3 * s, 0}}, .radii = {1e-3, 0.5e-3}, .start = "", .end = "right"}},
+         .extension = 4e-3});
+    for (const Lumen& lumen : {taper(), fork}) {
+        const SpacingField field = make_spacing_field(lumen, graded);
+        RelaxQuality q;
+        const GradedPoints p = make_graded_points(lumen, field, {}, &q);
+        const std::size_t n = p.points.size();
+        double volume = 0, nearest_mean = 0, nearest_square = 0, jump = 0, ratio = 1;
+        GradedRows rows;
+        rows.find(p.points, p.spacing, 2);
+        for (std::size_t i = 0; i < n; ++i) {
+            ASSERT_TRUE(contains(lumen, p.points[i]));
+            ASSERT_LE(lumen.distance.value(p.points[i]), -0.25 * p.spacing[i]);
+            ASSERT_NEAR(p.spacing[i] / field(p.points[i]), p.spacing[0] / field(p.points[0]), 1e-9);   // one factor
+            EXPECT_NEAR(p.spacing[i] / field(p.points[i]), 1, 0.03);
+            volume += std::pow(p.spacing[i], 3);
+            double nearest = 1e9;
+            for (const std::uint32_t j : rows.row(i)) {
+                if (j == n || j == i) continue;
+                nearest = std::min(nearest, 2 * norm(p.points[i] - p.points[j]) / (p.spacing[i] + p.spacing[j]));
+                ratio = std::max(ratio, p.spacing[j] / p.spacing[i]);
+            }
+            nearest_mean += nearest / double(n), nearest_square += nearest * nearest / double(n);
+            if (i > 0) jump += norm(p.points[i] - p.points[i - 1]) / p.spacing[i] / double(n);
+            EXPECT_GT(nearest, 0.6);
+        }
+        std::printf(
+            "    %6zu points: density %.4f +- %.2f %% (largest %.2f %%), nearest neighbour at %.3f +- %.3f spacings\n",
+            n, q.mean_density, 100 * q.density_spread, 100 * q.largest_density_error, nearest_mean,
+            std::sqrt(nearest_square - nearest_mean * nearest_mean));
+        EXPECT_NEAR(volume, lumen.volume, 1e-9 * lumen.volume);
+        EXPECT_NEAR(q.mean_density, 1, 0.02);
+        EXPECT_LT(q.density_spread, 0.01);
+        EXPECT_LT(q.largest_density_error, 0.08);   // in the crotch of the branches
+        // Between the cubic lattice's and the densest packing's.
+        EXPECT_GT(nearest_mean, 0.9);
+        EXPECT_LT(nearest_mean, 1.13);
+        const double growth = 1.3 * graded.growth;       // of the field: see its test
+        EXPECT_LT(ratio, (1 + growth) / (1 - growth));   // within two mean spacings
+        EXPECT_LT(jump, 4);                              // neighbours in space are neighbours in memory
+        // Along the vessel: the first points lie at the first opening, the last farthest from it.
+        EXPECT_GT(opening_coordinates(lumen.openings[0], p.points[0]).s, -p.spacing[0]);
+        EXPECT_LT(opening_coordinates(lumen.openings[0], p.points[n - 1]).s, -4e-3);
+    }
+    omp_set_num_threads(threads);
+}
+
+TEST(GradedPoints, AreTheSameBitsForAnotherNumberOfThreads) {
+    const Lumen lumen = taper();
+    const SpacingField field = make_spacing_field(lumen, graded);
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const GradedPoints one = make_graded_points(lumen, field, {.steps = 20});
+    omp_set_num_threads(3);
+    const GradedPoints three = make_graded_points(lumen, field, {.steps = 20});
+    omp_set_num_threads(threads);
+    EXPECT_EQ(one.points, three.points);
+    EXPECT_EQ(one.spacing, three.spacing);
+}
+
+TEST(GradedPoints, AreRefusedWhereTheyMakeNoSense) {
+    const Lumen lumen = taper();
+    const SpacingField field = make_spacing_field(lumen, graded);
+    EXPECT_THROW(make_graded_points(lumen, field, {.clearance = 2}), GeometryError);
+    EXPECT_THROW(make_graded_points(make_channel({.length = 1, .gap = 0.1}), field), GeometryError);
+    const Lumen tiny = make_tube({.length = 0.1e-3, .radius = 0.1e-3});
+    EXPECT_THROW(make_graded_points(tiny, field), GeometryError);
+}
+
+}   // namespace patency
