@@ -35,7 +35,8 @@ TEST(CellGradients, areExactForLinearFields) {
     const auto set = shaken_lattice(tube, 0.1, 0.3);
     const CellMesh mesh = make_cell_mesh(set.point, set.spacing, tube);
     for (const std::vector<char>& known : {std::vector<char>{0, 0}, {1, 0}, {1, 1}})
-        for (const Vec3& g : gradient_of([](const Vec3& x) { return 5 + dot(slope, x); }, mesh, make_gradients(mesh, known)))
+        for (const Vec3& g :
+             gradient_of([](const Vec3& x) { return 5 + dot(slope, x); }, mesh, make_gradients(mesh, known)))
             ASSERT_LT(norm(g - slope), 1e-9);
 }
 
@@ -44,7 +45,8 @@ TEST(CellGradients, areExactInASlab) {
     const auto set = shaken_lattice(channel, 0.1, 0.3);
     const CellMesh mesh = make_cell_mesh(set.point, set.spacing, channel);
     const Vec3 planar{0.3, -2, 0};
-    for (const Vec3& g : gradient_of([&](const Vec3& x) { return dot(planar, x); }, mesh, make_gradients(mesh, std::vector<char>{1, 0})))
+    for (const Vec3& g : gradient_of([&](const Vec3& x) { return dot(planar, x); }, mesh,
+                                     make_gradients(mesh, std::vector<char>{1, 0})))
         ASSERT_LT(norm(g - planar), 1e-9);
 }
 
@@ -70,8 +72,11 @@ double worst_slope(const Lumen& lumen, double h, const Field& profile, const std
 // Distance times a linear field, on any arrangement: Poiseuille's profile is one.
 TEST(CellGradients, areExactForAParabolaAtAPlaneWall) {
     const Lumen channel = make_channel({.length = 1, .gap = 0.5});
-    const auto error = worst_slope(channel, 0.06, [](const Vec3& x) { return x.y * (0.5 - x.y) * 4; },
-                                   [](const Vec3& x) { return Vec3{0, 4 * (0.5 - 2 * x.y), 0}; });
+    const auto error = worst_slope(
+        channel, 0.06, [](const Vec3& x) { return x.y * (0.5 - x.y) * 4; },
+        [](const Vec3& x) {
+            return Vec3{0, 4 * (0.5 - 2 * x.y), 0};
+        });
     EXPECT_LT(error, 1e-9);
 }
 
@@ -81,8 +86,11 @@ TEST(CellGradients, areOfSecondOrderForAParabolaInAPipe) {
     const Lumen tube = make_tube({.length = 0.4, .radius = radius});
     double error[2];
     for (const int k : {0, 1})
-        error[k] = worst_slope(tube, k == 0 ? 0.08 : 0.04, [&](const Vec3& x) { return radius * radius - x.y * x.y - x.z * x.z; },
-                               [](const Vec3& x) { return Vec3{0, -2 * x.y, -2 * x.z}; });
+        error[k] = worst_slope(
+            tube, k == 0 ? 0.08 : 0.04, [&](const Vec3& x) { return radius * radius - x.y * x.y - x.z * x.z; },
+            [](const Vec3& x) {
+                return Vec3{0, -2 * x.y, -2 * x.z};
+            });
     EXPECT_LT(error[0], 0.02);
     EXPECT_LT(error[1], error[0] / 3);
 }

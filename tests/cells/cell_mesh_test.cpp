@@ -30,7 +30,8 @@ double largest_gap(const CellMesh& mesh) {
         Vec3 sum{};
         double largest = 0;
         const auto add = [&](const Vec3& area) { sum += area, largest = std::max(largest, norm(area)); };
-        for (const CellNeighbour& n : mesh.neighbours(i)) add((mesh.faces[n.face].a == i ? 1.0 : -1.0) * mesh.faces[n.face].area);
+        for (const CellNeighbour& n : mesh.neighbours(i))
+            add((mesh.faces[n.face].a == i ? 1.0 : -1.0) * mesh.faces[n.face].area);
         for (const CellPatch& patch : mesh.patches_of(i)) add(patch.area);
         worst = std::max(worst, norm(sum) / largest);
     }
@@ -47,8 +48,10 @@ double wall_area(const CellMesh& mesh) {
 
 /// Corners and edges where two and three walls meet, openings, and a lumen that is no box.
 std::vector<Lumen> lumens() {
-    return {make_box({.size = {1, 0.8, 0.6}}), make_box({.size = {1, 0.8, 0.6}, .sides = {Side::open, Side::wall, Side::wall}}),
-            make_tube({.length = 1, .radius = 0.4}), make_cone({.length = 1, .inlet_radius = 0.45, .outlet_radius = 0.3}),
+    return {make_box({.size = {1, 0.8, 0.6}}),
+            make_box({.size = {1, 0.8, 0.6}, .sides = {Side::open, Side::wall, Side::wall}}),
+            make_tube({.length = 1, .radius = 0.4}),
+            make_cone({.length = 1, .inlet_radius = 0.45, .outlet_radius = 0.3}),
             make_nozzle({{{0, 0.25}, {0.5, 0.25}, {0.5, 0.45}, {1, 0.45}}})};
 }
 

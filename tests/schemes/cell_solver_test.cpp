@@ -35,9 +35,13 @@ struct Pipe {
     CellMesh mesh;
     CellEnd inlet, outlet;
 
-    explicit Pipe(double across, double shake = 0.2) : spacing(2 * radius / across), mesh(mesh_of(lumen, spacing, shake)) {
+    explicit Pipe(double across, double shake = 0.2)
+        : spacing(2 * radius / across), mesh(mesh_of(lumen, spacing, shake)) {
         inlet = {.kind = CellEnd::Kind::velocity,
-                 .velocity = [this](const Vec3& x) { return Vec3{2 * speed * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0}; },
+                 .velocity =
+                     [this](const Vec3& x) {
+                         return Vec3{2 * speed * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0};
+                     },
                  .flow = -flow()};
     }
     Pipe(const Pipe&) = delete;
@@ -45,7 +49,9 @@ struct Pipe {
     double slope() const { return 8 * mu * speed / (radius * radius); }   // Pa/m
     double stress() const { return 4 * mu * speed / radius; }
 
-    CellBalance balance(const CellFluid& fluid = blood) const { return CellBalance(mesh, fluid, std::vector{inlet, outlet}, 2 * speed); }
+    CellBalance balance(const CellFluid& fluid = blood) const {
+        return CellBalance(mesh, fluid, std::vector{inlet, outlet}, 2 * speed);
+    }
 };
 
 CellSolution solve(CellBalance& balance, const CellMesh& mesh, CellSolverSettings settings = {}) {
@@ -60,7 +66,9 @@ TEST(CellBalance, isKeptByAUniformStream) {
     const Vec3 stream{0.3, 0, 0};
     CellFluid slippery = blood;
     slippery.free_slip = true;
-    const CellEnd inlet{.kind = CellEnd::Kind::velocity, .velocity = [&](const Vec3&) { return stream; }, .flow = -0.3 * box.openings[0].area};
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity,
+                        .velocity = [&](const Vec3&) { return stream; },
+                        .flow = -0.3 * box.openings[0].area};
     CellBalance balance(mesh, slippery, std::vector{inlet, CellEnd{.pressure = 70}}, 0.3);
     balance.set_fields({std::vector<double>(mesh.size(), 70), std::vector<Vec3>(mesh.size(), stream)});
     balance.compute_residual(0.5);
@@ -82,10 +90,10 @@ TEST(CellBalance, losesNothingBetweenCells) {
     balance.set_fields(fields);
     balance.compute_residual(0.5);
     CellMatrix matrix(pipe.mesh);
-    Quads right;
+    CellVectors right;
     balance.fill({1}, matrix, right);
     double lack = 0, flow = 0;
-    for (const Quad& r : right) lack -= double(r[0]);
+    for (const CellVector& r : right) lack -= double(r[0]);
     for (const CellEndState& end : balance.end_states()) flow += end.flow / (2 * pipe.speed);
     EXPECT_NEAR(lack, flow, 1e-6 * pipe.flow() / pipe.speed) << "to the single precision of the right side";
 }
@@ -109,7 +117,8 @@ TEST(CellSolver, findsPoiseuilleAtSecondOrder) {
         const auto stress = balance.wall_shear_stress();
         double sum = 0, area = 0;
         for (std::size_t p = 0; p < stress.size(); ++p)
-            if (pipe.mesh.patches[p].opening == CellPatch::wall) sum += norm(pipe.mesh.patches[p].area) * stress[p].x, area += norm(pipe.mesh.patches[p].area);
+            if (pipe.mesh.patches[p].opening == CellPatch::wall)
+                sum += norm(pipe.mesh.patches[p].area) * stress[p].x, area += norm(pipe.mesh.patches[p].area);
         EXPECT_NEAR(sum / area / pipe.stress(), 1, k == 0 ? 0.04 : 0.01);
     }
     EXPECT_LT(error[0], 0.02) << "a lattice that the wall cuts, eight cells across";
@@ -188,7 +197,12 @@ TEST(CellSolver, findsTheProfileOfAPowerLawInASlab) {
         const double s = std::abs(2 * y / gap - 1);
         return (2 * n + 1) / (n + 1) * speed * (1 - std::pow(s, 1 + 1 / n));
     };
-    const CellEnd inlet{.kind = CellEnd::Kind::velocity, .velocity = [&](const Vec3& x) { return Vec3{profile(x.y), 0, 0}; }, .flow = -speed * gap};
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity,
+                        .velocity =
+                            [&](const Vec3& x) {
+                                return Vec3{profile(x.y), 0, 0};
+                            },
+                        .flow = -speed * gap};
     const CellFluid thinning{.density = density, .rheology = PowerLaw{consistency, n, 1e-4, 1}};
     CellBalance balance(mesh, thinning, std::vector{inlet, CellEnd{}}, speed);
     solve(balance, mesh);
@@ -208,13 +222,13 @@ TEST(CellSolver, findsTheProfileOfAPowerLawInASlab) {
 }
 
 TEST(CellSolver, isTheSameForAnyNumberOfThreads) {
-    const Pipe pipe(16);   // several runs of rows
+    const Pipe pipe(12);   // several runs of rows
     const int threads = omp_get_max_threads();
     std::vector<CellFields> found;
     for (const int n : {1, 2, 4}) {
         omp_set_num_threads(n);
         CellBalance balance = pipe.balance();
-        solve(balance, pipe.mesh, {.tolerance = 1e-2});
+        solve(balance, pipe.mesh, {.tolerance = 0.1});
         found.push_back(balance.fields());
     }
     omp_set_num_threads(threads);
@@ -250,14 +264,14 @@ TEST(CellSolver, startsNearerFromACoarserFlow) {
 TEST(CellKrylov, solvesWhatItIsGiven) {
     // A lower triangle with a diagonal that grows, preconditioned by the diagonal.
     const std::size_t count = 40;
-    const QuadOperator multiply = [](const Quads& x, Quads& y) {
-        for (std::size_t i = 0; i < x.size(); ++i) y[i] = float(i + 1) * x[i] + (i > 0 ? x[i - 1] : Quad{});
+    const CellOperator multiply = [](const CellVectors& x, CellVectors& y) {
+        for (std::size_t i = 0; i < x.size(); ++i) y[i] = float(i + 1) * x[i] + (i > 0 ? x[i - 1] : CellVector{});
     };
-    const QuadOperator divide = [](const Quads& x, Quads& y) {
+    const CellOperator divide = [](const CellVectors& x, CellVectors& y) {
         for (std::size_t i = 0; i < x.size(); ++i) y[i] = x[i] / float(i + 1);
     };
-    Quads wanted(count), right(count), found;
-    for (std::size_t i = 0; i < count; ++i) wanted[i] = Quad{float(i), 1, -2, 0.5f * float(i)};
+    CellVectors wanted(count), right(count), found;
+    for (std::size_t i = 0; i < count; ++i) wanted[i] = CellVector{float(i), 1, -2, 0.5f * float(i)};
     multiply(wanted, right);
     const KrylovResult result = solve_by_krylov(multiply, divide, right, found, 60, 1e-6);
     EXPECT_LT(result.residual, 1e-6);

@@ -62,7 +62,8 @@ CellGradients make_gradients_at_rest_on_walls(const CellMesh& mesh, std::span<co
     const std::vector<char> nowhere(is_known.size(), 0);
     for_each_index(mesh.size(), [&](std::size_t i) {
         const auto patches = mesh.patches_of(i);
-        if (std::none_of(patches.begin(), patches.end(), [](const CellPatch& p) { return p.opening == CellPatch::wall; })) {
+        if (std::none_of(patches.begin(), patches.end(),
+                         [](const CellPatch& p) { return p.opening == CellPatch::wall; })) {
             put_weights(mesh, i, is_known, gradients);
             return;
         }

@@ -38,7 +38,9 @@ void for_each_run(std::size_t count, Body body) {
         if (failure) std::rethrow_exception(failure);
 }
 
-std::string text_of(const Vec3& x) { return fmt::format("({:.3f}, {:.3f}, {:.3f}) mm", 1e3 * x.x, 1e3 * x.y, 1e3 * x.z); }
+std::string text_of(const Vec3& x) {
+    return fmt::format("({:.3f}, {:.3f}, {:.3f}) mm", 1e3 * x.x, 1e3 * x.y, 1e3 * x.z);
+}
 
 class MeshMaker {
 public:
@@ -46,7 +48,8 @@ public:
         if (points.empty() || points.size() != spacing.size())
             throw GeometryError("Cells need points, and a spacing for each.");
         for (std::size_t i = 0; i < points.size(); ++i)
-            if (!std::isfinite(points[i].x + points[i].y + points[i].z) || !(spacing[i] > 0) || !std::isfinite(spacing[i]))
+            if (!std::isfinite(points[i].x + points[i].y + points[i].z) || !(spacing[i] > 0) ||
+                !std::isfinite(spacing[i]))
                 throw GeometryError(fmt::format("Point {} is no place, or its spacing no length.", i));
         if (lumen.period.x > 0 || lumen.period.y > 0 || lumen.period.z > 0)
             throw GeometryError("Cells cannot be periodic; give the lumen openings.");
@@ -82,8 +85,8 @@ private:
                 const double depth = -lumen_.distance.value(mesh_.point[i]);
                 if (!(depth < (wall_reach + 0.5) * h)) continue;
                 if (depth < -most_outside * h)
-                    throw GeometryError(fmt::format("A particle lies {:.3g} mm outside of the lumen, at {}.", -1e3 * depth,
-                                                    text_of(mesh_.point[i])));
+                    throw GeometryError(fmt::format("A particle lies {:.3g} mm outside of the lumen, at {}.",
+                                                    -1e3 * depth, text_of(mesh_.point[i])));
                 NearestWall wall = find_wall(lumen_, mesh_.point[i], h);
                 if (wall.distance < least_wall_distance * h) {
                     mesh_.point[i] += (wall.distance - least_wall_distance * h) * wall.normal;
@@ -99,7 +102,8 @@ private:
             for (std::size_t i = 0; i < size(); ++i) {
                 const auto [s, radial] = opening_coordinates(opening, mesh_.point[i]);
                 if (s > 0 && s < spacing_[i] && norm(radial) < opening.reach)
-                    throw GeometryError(fmt::format("A particle lies past the opening '{}', at {}.", opening.name, text_of(mesh_.point[i])));
+                    throw GeometryError(fmt::format("A particle lies past the opening '{}', at {}.", opening.name,
+                                                    text_of(mesh_.point[i])));
             }
     }
 
@@ -144,8 +148,10 @@ private:
                 if (side.label < 0) continue;
                 const auto j = std::size_t(side.label);
                 const CellSide* back = side_towards(j, i);
-                if (i < j) add_face(i, j, &side, back);
-                else if (!back) add_face(j, i, nullptr, &side);
+                if (i < j)
+                    add_face(i, j, &side, back);
+                else if (!back)
+                    add_face(j, i, nullptr, &side);
             }
         std::sort(mesh_.faces.begin(), mesh_.faces.end(),
                   [](const CellFace& p, const CellFace& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
@@ -155,8 +161,10 @@ private:
         mesh_.row.resize(2 * mesh_.faces.size());
         // Those of smaller index come first, so every row rises.
         std::vector<std::uint32_t> next(mesh_.row_start.begin(), mesh_.row_start.end() - 1);
-        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) mesh_.row[next[mesh_.faces[f].b]++] = {mesh_.faces[f].a, f};
-        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) mesh_.row[next[mesh_.faces[f].a]++] = {mesh_.faces[f].b, f};
+        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f)
+            mesh_.row[next[mesh_.faces[f].b]++] = {mesh_.faces[f].a, f};
+        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f)
+            mesh_.row[next[mesh_.faces[f].a]++] = {mesh_.faces[f].b, f};
     }
 
     static int opening_of(const CellSide& side) {
@@ -170,18 +178,21 @@ private:
         const std::size_t count = lumen_.openings.size();
         std::vector<double> inner(count), rim(count);
         const auto is_at_wall = [&](std::size_t i) {
-            return std::any_of(sides_[i].begin(), sides_[i].end(), [](const CellSide& s) { return s.label == wall_label; });
+            return std::any_of(sides_[i].begin(), sides_[i].end(),
+                               [](const CellSide& s) { return s.label == wall_label; });
         };
         for (std::size_t i = 0; i < size(); ++i)
             for (const CellSide& side : sides_[i])
-                if (side.label < 0 && opening_of(side) >= 0) (is_at_wall(i) ? rim : inner)[std::size_t(opening_of(side))] += side.area;
+                if (side.label < 0 && opening_of(side) >= 0)
+                    (is_at_wall(i) ? rim : inner)[std::size_t(opening_of(side))] += side.area;
         std::vector<double> scale(count, 1);
         for (std::size_t k = 0; k < count; ++k) {
             const double wanted = lumen_.openings[k].area * mesh_.depth;
             scale[k] = rim[k] > 0 ? (wanted - inner[k]) / rim[k] : 1;
             if (!(inner[k] + rim[k] > 0.8 * wanted) || !(scale[k] > 0.5) || !(scale[k] < 2))
-                throw GeometryError(fmt::format("The particles at the opening '{}' cover {:.3g} mm2 instead of {:.3g} mm2: too few lie across it.",
-                                                lumen_.openings[k].name, 1e6 * (inner[k] + rim[k]), 1e6 * wanted));
+                throw GeometryError(fmt::format(
+                    "The particles at the opening '{}' cover {:.3g} mm2 instead of {:.3g} mm2: too few lie across it.",
+                    lumen_.openings[k].name, 1e6 * (inner[k] + rim[k]), 1e6 * wanted));
             mesh_.opening_area.push_back(inner[k] + scale[k] * rim[k]);
         }
         mesh_.patch_start.assign(1, 0);
@@ -191,7 +202,8 @@ private:
                 if (side.label >= 0) break;
                 const int opening = opening_of(side);
                 const double area = side.area * (opening >= 0 && at_wall ? scale[std::size_t(opening)] : 1);
-                mesh_.patches.push_back({std::uint32_t(i), opening, area * side.normal, side.centroid, side.normal, side.distance});
+                mesh_.patches.push_back(
+                    {std::uint32_t(i), opening, area * side.normal, side.centroid, side.normal, side.distance});
             }
             mesh_.patch_start.push_back(std::uint32_t(mesh_.patches.size()));
         }
@@ -216,14 +228,17 @@ private:
             for (const CellPatch& patch : mesh_.patches_of(i)) all.push_back(patch);
             CellPatch* largest = nullptr;
             for (std::size_t k = first; k < all.size(); ++k)
-                if (all[k].opening == CellPatch::wall && (!largest || dot(all[k].area, all[k].area) > dot(largest->area, largest->area)))
+                if (all[k].opening == CellPatch::wall &&
+                    (!largest || dot(all[k].area, all[k].area) > dot(largest->area, largest->area)))
                     largest = &all[k];
-            if (largest) largest->area -= open[i];
+            if (largest)
+                largest->area -= open[i];
             else if (norm(open[i]) > round_off * area[i]) {
                 if (!(mesh_.wall_distance[i] < CellMesh::far))
                     throw GeometryError(fmt::format("The cell at {} does not close.", text_of(mesh_.point[i])));
                 const double d = mesh_.wall_distance[i];
-                all.push_back({std::uint32_t(i), CellPatch::wall, -open[i], mesh_.point[i] + d * mesh_.wall_normal[i], mesh_.wall_normal[i], d});
+                all.push_back({std::uint32_t(i), CellPatch::wall, -open[i], mesh_.point[i] + d * mesh_.wall_normal[i],
+                               mesh_.wall_normal[i], d});
             }
             start.push_back(std::uint32_t(all.size()));
         }

@@ -14,10 +14,10 @@ namespace patency {
 
 /// What two cells share.
 struct CellFace {
-    std::uint32_t a, b;    ///< cells, a < b
-    Vec3 area;             ///< from a to b, along the line between their points [m^2]
-    Vec3 centroid;         ///< [m]
-    double conductance;    ///< |area| over the distance of the points [m]
+    std::uint32_t a, b;   ///< cells, a < b
+    Vec3 area;            ///< from a to b, along the line between their points [m^2]
+    Vec3 centroid;        ///< [m]
+    double conductance;   ///< |area| over the distance of the points [m]
 };
 
 /// What a cell shares with the wall or an opening.
@@ -39,18 +39,18 @@ struct CellNeighbour {
 struct CellMesh {
     static constexpr double far = std::numeric_limits<double>::infinity();
 
-    std::vector<Vec3> point;              ///< [m], in an order that keeps neighbours near
-    std::vector<std::uint32_t> source;    ///< which of the points given it was
-    std::vector<double> volume;           ///< [m^3]
-    std::vector<double> wall_distance;    ///< [m], > 0; far: deeper than any neighbour needs
-    std::vector<Vec3> wall_normal;        ///< unit, out of the lumen, at the nearest place of the wall
-    std::vector<CellFace> faces;          ///< ordered by a, then b
-    std::vector<CellPatch> patches;       ///< ordered by cell
+    std::vector<Vec3> point;                             ///< [m], in an order that keeps neighbours near
+    std::vector<std::uint32_t> source;                   ///< which of the points given it was
+    std::vector<double> volume;                          ///< [m^3]
+    std::vector<double> wall_distance;                   ///< [m], > 0; far: deeper than any neighbour needs
+    std::vector<Vec3> wall_normal;                       ///< unit, out of the lumen, at the nearest place of the wall
+    std::vector<CellFace> faces;                         ///< ordered by a, then b
+    std::vector<CellPatch> patches;                      ///< ordered by cell
     std::vector<std::uint32_t> row_start, patch_start;   ///< per cell, and one more
-    std::vector<CellNeighbour> row;       ///< per cell, by rising neighbour
-    std::vector<double> opening_area;     ///< per opening, of the patches [m^2]; the lumen's own
-    double depth = 1;                     ///< of the slab that stands for a planar lumen [m]; 1 in space
-    std::size_t led_back = 0;             ///< points that were moved off the wall
+    std::vector<CellNeighbour> row;                      ///< per cell, by rising neighbour
+    std::vector<double> opening_area;                    ///< per opening, of the patches [m^2]; the lumen's own
+    double depth = 1;                                    ///< of the slab that stands for a planar lumen [m]; 1 in space
+    std::size_t led_back = 0;                            ///< points that were moved off the wall
 
     std::size_t size() const { return point.size(); }
     std::span<const CellNeighbour> neighbours(std::size_t i) const {

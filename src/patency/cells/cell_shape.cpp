@@ -12,15 +12,15 @@ namespace patency::cell_shapes {
 
 namespace {
 
-constexpr double first_half = 3;       // of the cube that a cell is cut from, in spacings: no even cell reaches so far
-constexpr double first_reach = 2.2;    // of the search for neighbours, in spacings; grows until it is enough
-constexpr double beside_wall = 1.5;    // nearer points are cut by the wall before anything else bounds them there
-constexpr double clearance = 1e-3;     // a plane leaves at least this between itself and the point, in spacings
+constexpr double first_half = 3;      // of the cube that a cell is cut from, in spacings: no even cell reaches so far
+constexpr double first_reach = 2.2;   // of the search for neighbours, in spacings; grows until it is enough
+constexpr double beside_wall = 1.5;   // nearer points are cut by the wall before anything else bounds them there
+constexpr double clearance = 1e-3;    // a plane leaves at least this between itself and the point, in spacings
 // How far a corner may reach out of the lumen before another plane cuts it off, in spacings. The tangent plane of a tube
 // of radius R lets corners out by about 1/4R: smooth walls need one plane from four spacings of radius on.
 constexpr double outside_allowed = 0.1;
-constexpr int most_walls = 8;          // planes of one cell
-constexpr double too_close = 1e-6;     // points, in spacings
+constexpr int most_walls = 8;        // planes of one cell
+constexpr double too_close = 1e-6;   // points, in spacings
 
 }   // namespace
 
@@ -77,7 +77,8 @@ void CellMaker::clip_by_neighbours(std::uint32_t i) {
             const double r = std::sqrt(square);
             if (r < too_close) {
                 const Vec3 x = 1e3 * centre_;
-                throw GeometryError(fmt::format("Two particles lie at the same place, ({:.4f}, {:.4f}, {:.4f}) mm.", x.x, x.y, x.z));
+                throw GeometryError(
+                    fmt::format("Two particles lie at the same place, ({:.4f}, {:.4f}, {:.4f}) mm.", x.x, x.y, x.z));
             }
             shape_.clip((cloud_.point[j] - centre_) / (r * unit_), 0.5 * r, int(j));
         }
@@ -122,15 +123,17 @@ double CellMaker::make(std::uint32_t i, const NearestWall& wall, std::vector<Cel
     planes_.clear();
     shape_.reset(first_half, box_label);
     clip_by_openings();
-    if (wall.distance <= beside_wall * unit_) clip({wall.normal, std::max(wall.distance / unit_, clearance), wall_label});
+    if (wall.distance <= beside_wall * unit_)
+        clip({wall.normal, std::max(wall.distance / unit_, clearance), wall_label});
     clip_by_neighbours(i);
     clip_by_walls(wall);
     for (std::size_t f = 0; f < shape_.face_count(); ++f) {
         const PolyhedronFace face = shape_.face(f);
         if (face.label == box_label) {
             const Vec3 x = 1e3 * centre_;
-            throw GeometryError(fmt::format("The particles leave a hole of more than {:.3g} mm at ({:.3f}, {:.3f}, {:.3f}) mm.",
-                                            1e3 * first_half * unit_, x.x, x.y, x.z));
+            throw GeometryError(
+                fmt::format("The particles leave a hole of more than {:.3g} mm at ({:.3f}, {:.3f}, {:.3f}) mm.",
+                            1e3 * first_half * unit_, x.x, x.y, x.z));
         }
         const double area = unit_ * unit_ * norm(face.area);
         const Vec3 centroid = centre_ + unit_ * face.centroid;

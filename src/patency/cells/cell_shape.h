@@ -27,7 +27,8 @@ struct CellSide {
     Vec3 centroid, normal;   ///< [m]; unit, of the plane, of boundaries only
     double distance;         ///< of the point from the plane [m], of boundaries only
 };
-constexpr int box_label = -1, symmetry_label = -2, wall_label = -3, opening_label = -4;   // opening k: opening_label - k
+constexpr int box_label = -1, symmetry_label = -2, wall_label = -3,
+              opening_label = -4;   // opening k: opening_label - k
 
 struct PointCloud {
     std::span<const Vec3> point;

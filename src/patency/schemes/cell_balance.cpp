@@ -13,8 +13,12 @@ namespace patency {
 
 using namespace cell_terms;
 
-CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span<const CellEnd> ends, double reference_speed)
-    : mesh_(mesh), fluid_(fluid), speed_(reference_speed), is_newtonian_(std::holds_alternative<Newtonian>(fluid.rheology)) {
+CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span<const CellEnd> ends,
+                         double reference_speed)
+    : mesh_(mesh),
+      fluid_(fluid),
+      speed_(reference_speed),
+      is_newtonian_(std::holds_alternative<Newtonian>(fluid.rheology)) {
     std::vector<char> has_velocity, has_pressure;
     double pressures = 0, count = 0;
     for (const CellEnd& said : ends) {
@@ -22,10 +26,14 @@ CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span
         has_pressure.push_back(said.kind == CellEnd::Kind::pressure);
         if (said.kind == CellEnd::Kind::pressure) pressures += said.pressure, count += 1;
     }
-    if (count == 0) throw DeckError("openings: all prescribe their flow, so that nothing tells the level of the pressure; give one a pressure or a resistance");
+    if (count == 0)
+        throw DeckError(
+            "openings: all prescribe their flow, so that nothing tells the level of the pressure; give one a pressure "
+            "or a resistance");
     level_ = pressures / count;
     for_pressure_ = make_gradients(mesh, has_pressure);
-    for_velocity_ = fluid.free_slip ? make_gradients(mesh, has_velocity) : make_gradients_at_rest_on_walls(mesh, has_velocity);
+    for_velocity_ =
+        fluid.free_slip ? make_gradients(mesh, has_velocity) : make_gradients_at_rest_on_walls(mesh, has_velocity);
 
     const std::size_t cells = mesh.size();
     for (const double volume : mesh.volume) width_.push_back(std::cbrt(volume));
@@ -43,7 +51,8 @@ CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span
 void CellBalance::set_end(const CellEnd& said, End& end) {
     end.kind = said.kind;
     end.wanted = said.flow * mesh_.depth / speed_;
-    end.response = {(said.pressure - level_) / (fluid_.density * speed_ * speed_), said.resistance / mesh_.depth / (fluid_.density * speed_)};
+    end.response = {(said.pressure - level_) / (fluid_.density * speed_ * speed_),
+                    said.resistance / mesh_.depth / (fluid_.density * speed_)};
     const double wanted = said.kind == CellEnd::Kind::velocity ? end.wanted : -1;
     double carried = 0;
     for (const std::uint32_t k : end.patches) {
@@ -86,8 +95,10 @@ void CellBalance::compute_gradients() {
         for (std::size_t k = mesh_.patch_start[i]; k < mesh_.patch_start[i + 1]; ++k) {
             if (mesh_.patches[k].opening < 0) continue;
             const End& end = ends_[std::size_t(mesh_.patches[k].opening)];
-            if (end.kind == CellEnd::Kind::velocity) g += outer(imposed_[k] - u, for_velocity_.patch[k]);
-            else p += (end.pressure - p_[i]) * for_pressure_.patch[k];
+            if (end.kind == CellEnd::Kind::velocity)
+                g += outer(imposed_[k] - u, for_velocity_.patch[k]);
+            else
+                p += (end.pressure - p_[i]) * for_pressure_.patch[k];
         }
         grad_p_[i] = p;
         grad_u_[i] = g;
@@ -96,13 +107,15 @@ void CellBalance::compute_gradients() {
 
 void CellBalance::compute_cell_states(double kappa) {
     for_each_index(mesh_.size(), [&](std::size_t i) {
-        const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) / (fluid_.density * speed_);
+        const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
+                          (fluid_.density * speed_);
         state_[i] = {p_[i], u_[i], grad_p_[i], grad_u_[i], nu, sound_speed(kappa, norm(u_[i]), nu, width_[i])};
     });
 }
 
 Face CellBalance::face_of(const CellFace& face) const {
-    return {face.area, norm(face.area), face.conductance, face.centroid - mesh_.point[face.a], face.centroid - mesh_.point[face.b]};
+    return {face.area, norm(face.area), face.conductance, face.centroid - mesh_.point[face.a],
+            face.centroid - mesh_.point[face.b]};
 }
 
 void CellBalance::compute_open_pressures() {
@@ -176,8 +189,10 @@ void CellBalance::sum_fluxes() {
         return wall_viscosity(cell, patch) * norm(patch.area) * norm(wall_slope(cell, way_to(patch), patch.distance));
     });
     const double none = 1e-300;
-    volume_residual_ = sum_of(mesh_.size(), [&](std::size_t i) { return std::abs(lack_[i].volume); }) / std::max(through, none);
-    momentum_residual_ = sum_of(mesh_.size(), [&](std::size_t i) { return norm(lack_[i].momentum); }) / std::max(force, none);
+    volume_residual_ =
+        sum_of(mesh_.size(), [&](std::size_t i) { return std::abs(lack_[i].volume); }) / std::max(through, none);
+    momentum_residual_ =
+        sum_of(mesh_.size(), [&](std::size_t i) { return norm(lack_[i].momentum); }) / std::max(force, none);
 }
 
 void CellBalance::compute_residual(double kappa) {
@@ -192,10 +207,12 @@ void CellBalance::compute_residual(double kappa) {
     sum_fluxes();
 }
 
-void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, Quads& right) const {
+void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& right) const {
     CellLevel& level = matrix.finest();
     right.resize(mesh_.size());
-    const auto quad = [](double first, const Vec3& v) { return Quad{float(first), float(v.x), float(v.y), float(v.z)}; };
+    const auto quad = [](double first, const Vec3& v) {
+        return CellVector{float(first), float(v.x), float(v.y), float(v.z)};
+    };
     for_each_index(mesh_.size(), [&](std::size_t i) {
         const CellState& cell = state_[i];
         double p_diagonal = 0, m_diagonal = 0, signals = 0;
@@ -204,7 +221,8 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, Quads& right)
             const CellNeighbour& n = mesh_.row[k];
             const CellFace& face = mesh_.faces[n.face];
             const double sign = face.a == i ? 1 : -1, size = norm(face.area), volume = sign * face_flux_[n.face].volume;
-            const double both = cell.c + state_[n.cell].c, nu = 0.5 * (cell.nu + state_[n.cell].nu), viscous = nu * face.conductance;
+            const double both = cell.c + state_[n.cell].c, nu = 0.5 * (cell.nu + state_[n.cell].nu),
+                         viscous = nu * face.conductance;
             const double coupling = size / both, transport = std::min(volume, 0.0) - viscous;
             const Vec3 half = 0.5 * sign * face.area;
             level.coupling[k] = quad(-coupling, half);
@@ -225,8 +243,10 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, Quads& right)
                 continue;
             }
             gradient += patch.area;
-            if (patch.opening >= 0) m_diagonal += viscous;
-            else if (patch.opening == CellPatch::wall && !fluid_.free_slip) m_diagonal += 1.5 * viscous;
+            if (patch.opening >= 0)
+                m_diagonal += viscous;
+            else if (patch.opening == CellPatch::wall && !fluid_.free_slip)
+                m_diagonal += 1.5 * viscous;
         }
         const double slowness = signals / (2 * step.courant);
         m_diagonal += slowness;
@@ -237,25 +257,26 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, Quads& right)
     matrix.make_coarse();
 }
 
-void CellBalance::add_openings(const Quads& x, Quads& y) const {
+void CellBalance::add_openings(const CellVectors& x, CellVectors& y) const {
     for (const End& end : ends_) {
         if (end.kind == CellEnd::Kind::velocity || !(end.slope > 0)) continue;
         double free = 0;
         for (const std::uint32_t k : end.patches) {
             const CellPatch& patch = mesh_.patches[k];
-            const Quad& z = x[patch.cell];
+            const CellVector& z = x[patch.cell];
             free += dot(patch.area, Vec3{z[1], z[2], z[3]}) + norm(patch.area) / state_[patch.cell].c * double(z[0]);
         }
         const double pressure = end.slope * free;
         for (const std::uint32_t k : end.patches) {
             const CellPatch& patch = mesh_.patches[k];
             const Vec3 force = pressure * patch.area;
-            y[patch.cell] += Quad{float(-pressure * norm(patch.area) / state_[patch.cell].c), float(force.x), float(force.y), float(force.z)};
+            y[patch.cell] += CellVector{float(-pressure * norm(patch.area) / state_[patch.cell].c), float(force.x),
+                                        float(force.y), float(force.z)};
         }
     }
 }
 
-void CellBalance::apply(const Quads& change) {
+void CellBalance::apply(const CellVectors& change) {
     for_each_index(mesh_.size(), [&](std::size_t i) {
         p_[i] += double(change[i][0]);
         u_[i] += Vec3{change[i][1], change[i][2], change[i][3]};
@@ -299,10 +320,11 @@ CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
     for_each_index(places.size(), [&](std::size_t n) {
         std::vector<std::uint32_t> found;
         for (double reach = first; found.empty(); reach *= 2) tree.find(places[n], reach, found);
-        const std::uint32_t nearest = *std::min_element(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const Vec3 p = mesh_.point[a] - places[n], q = mesh_.point[b] - places[n];
-            return dot(p, p) != dot(q, q) ? dot(p, p) < dot(q, q) : a < b;
-        });
+        const std::uint32_t nearest =
+            *std::min_element(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
+                const Vec3 p = mesh_.point[a] - places[n], q = mesh_.point[b] - places[n];
+                return dot(p, p) != dot(q, q) ? dot(p, p) < dot(q, q) : a < b;
+            });
         const Vec3 d = places[n] - mesh_.point[nearest];
         fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ * state_[nearest].p_at(d);
         fields.velocity[n] = speed_ * state_[nearest].u_at(d);

@@ -26,7 +26,7 @@ struct CellEnd {
     /// [m/s]; of the other ends: what enters through them, scaled to the flow that does. Empty: a plug.
     std::function<Vec3(const Vec3& x)> velocity = {};
     double flow = 0;
-    double pressure = 0, resistance = 0;                ///< [Pa], [Pa s/m^3]
+    double pressure = 0, resistance = 0;   ///< [Pa], [Pa s/m^3]
 };
 
 struct CellFluid {
@@ -47,8 +47,8 @@ struct CellEndState {
 
 /// How far the pseudo-time step goes.
 struct PseudoStep {
-    double courant;                 ///< in cells that a signal crosses
-    double pressure_share = 0.1;    ///< of the pressure's own term: with less of it a step is nearer to Newton's
+    double courant;                ///< in cells that a signal crosses
+    double pressure_share = 0.1;   ///< of the pressure's own term: with less of it a step is nearer to Newton's
 };
 
 class CellBalance {
@@ -66,10 +66,10 @@ public:
     double momentum_residual() const { return momentum_residual_; }
 
     /// The matrix of a step and minus the residual.
-    void fill(const PseudoStep& step, CellMatrix& matrix, Quads& right) const;
+    void fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& right) const;
     /// Adds to y = matrix x what the openings' pressures answer.                                   THEORY.md (18.14)
-    void add_openings(const Quads& x, Quads& y) const;
-    void apply(const Quads& change);
+    void add_openings(const CellVectors& x, CellVectors& y) const;
+    void apply(const CellVectors& change);
 
     std::vector<CellEndState> end_states() const;
     /// Per patch, zero away from walls [Pa].                                                       THEORY.md (18.7)
@@ -84,9 +84,9 @@ private:
         CellEnd::Kind kind;
         std::vector<std::uint32_t> patches;
         cell_terms::OpenResponse response{};
-        double wanted = 0;                        // flow
+        double wanted = 0;   // flow
         double flow = 0, pressure = 0, conductance = 0;
-        double slope = 0;                         // of the pressure by the free flow
+        double slope = 0;   // of the pressure by the free flow
     };
     void set_end(const CellEnd& said, End& end);
     void compute_gradients();
@@ -96,17 +96,19 @@ private:
     void sum_fluxes();
     cell_terms::Face face_of(const CellFace& face) const;
     double wall_viscosity(const cell_terms::CellState& cell, const CellPatch& patch) const;
-    bool is_open(const CellPatch& patch) const { return patch.opening >= 0 && ends_[std::size_t(patch.opening)].kind != CellEnd::Kind::velocity; }
+    bool is_open(const CellPatch& patch) const {
+        return patch.opening >= 0 && ends_[std::size_t(patch.opening)].kind != CellEnd::Kind::velocity;
+    }
     Vec3 way_to(const CellPatch& patch) const { return patch.centroid - mesh_.point[patch.cell]; }
 
     // Inside, velocities are over the reference speed U, pressures over density U^2, viscosities over U.
     const CellMesh& mesh_;
     CellFluid fluid_;
-    double speed_, level_ = 0;                   // level: subtracted from all pressures [Pa]
+    double speed_, level_ = 0;   // level: subtracted from all pressures [Pa]
     bool is_newtonian_;
     CellGradients for_pressure_, for_velocity_;
-    std::vector<double> width_;                  // of a cell [m]
-    std::vector<Vec3> imposed_;                  // per patch: velocity, or what a flow of -1 brings in
+    std::vector<double> width_;   // of a cell [m]
+    std::vector<Vec3> imposed_;   // per patch: velocity, or what a flow of -1 brings in
     std::vector<End> ends_;
 
     std::vector<cell_terms::CellState> state_;

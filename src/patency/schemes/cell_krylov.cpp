@@ -9,42 +9,42 @@ namespace patency {
 
 namespace {
 
-double product(const Quads& a, const Quads& b) {
+double product(const CellVectors& a, const CellVectors& b) {
     return sum_of(a.size(), [&](std::size_t i) {
-        const Quad c = a[i] * b[i];
+        const CellVector c = a[i] * b[i];
         return (double(c[0]) + double(c[1])) + (double(c[2]) + double(c[3]));
     });
 }
 
-void add(double factor, const Quads& a, Quads& to) {
+void add(double factor, const CellVectors& a, CellVectors& to) {
     const auto f = float(factor);
     for_each_index(a.size(), [&](std::size_t i) { to[i] += f * a[i]; });
 }
 
-void scale(double factor, Quads& a) {
+void scale(double factor, CellVectors& a) {
     const auto f = float(factor);
     for_each_index(a.size(), [&](std::size_t i) { a[i] *= f; });
 }
 
 }   // namespace
 
-KrylovResult solve_by_krylov(const QuadOperator& multiply, const QuadOperator& precondition, const Quads& right, Quads& x,
-                             int most, double tolerance) {
+KrylovResult solve_by_krylov(const CellOperator& multiply, const CellOperator& precondition, const CellVectors& right,
+                             CellVectors& x, int most, double tolerance) {
     const double length = std::sqrt(product(right, right));
-    x.assign(right.size(), Quad{});
+    x.assign(right.size(), CellVector{});
     if (!(length > 0)) return {0, 0};
-    std::vector<Quads> basis(1, right), search;
+    std::vector<CellVectors> basis(1, right), search;
     scale(1 / length, basis[0]);
     std::vector<std::vector<double>> columns;              // of the triangle that rotations make of Hessenberg's matrix
     std::vector<double> cosines, sines, rest(1, length);   // rest: of the right side after the rotations
     int k = 0;
     while (k < most) {
-        Quads z(right.size()), w(right.size());
+        CellVectors z(right.size()), w(right.size());
         precondition(basis[std::size_t(k)], z);
         multiply(z, w);
         search.push_back(std::move(z));
         std::vector<double> h;
-        for (const Quads& v : basis) {
+        for (const CellVectors& v : basis) {
             h.push_back(product(w, v));
             add(-h.back(), v, w);
         }

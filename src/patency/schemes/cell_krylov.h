@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The flexible generalised minimal residual method (Saad 1993) on vectors of quads. Knows neither matrix nor physics.
+// The flexible generalised minimal residual method (Saad 1993) on cell vectors. Knows neither matrix nor physics.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace patency {
 
-using QuadOperator = std::function<void(const Quads& x, Quads& y)>;   // y = operator x
+using CellOperator = std::function<void(const CellVectors& x, CellVectors& y)>;   // y = operator x
 
 struct KrylovResult {
     double residual;   ///< |right - A x| over |right|
@@ -17,7 +17,7 @@ struct KrylovResult {
 
 /// x = about A^-1 right, from zero, in at most `most` steps or until the residual is below tolerance. Sums are in double
 /// and in fixed blocks: the same bits for any number of threads.
-KrylovResult solve_by_krylov(const QuadOperator& multiply, const QuadOperator& precondition, const Quads& right, Quads& x,
-                             int most, double tolerance);
+KrylovResult solve_by_krylov(const CellOperator& multiply, const CellOperator& precondition, const CellVectors& right,
+                             CellVectors& x, int most, double tolerance);
 
 }   // namespace patency

@@ -11,10 +11,10 @@ namespace patency {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t block_rows = 512;     // smoothed one after the other
-constexpr std::size_t fewest_rows = 60;     // of the coarsest level
+constexpr std::size_t block_rows = 512;   // smoothed one after the other
+constexpr std::size_t fewest_rows = 60;   // of the coarsest level
 constexpr int coarsest_sweeps = 10;
-constexpr int rounds = 3;                   // of pairing per level: eight cells become one
+constexpr int rounds = 3;   // of pairing per level: eight cells become one
 
 struct Graph {
     std::vector<std::uint32_t> start, column;
@@ -102,13 +102,13 @@ void allocate(CellLevel& level, std::size_t rows) {
     level.colours = colour_blocks(level);
 }
 
-constexpr Quad broadcast(float s) { return Quad{s, s, s, s}; }
+constexpr CellVector broadcast(float s) { return CellVector{s, s, s, s}; }
 
 /// What the neighbours add to row i.
-inline Quad off_diagonal(const CellLevel& level, const Quads& x, std::size_t i) {
-    Quad mass{}, momentum{};
+inline CellVector off_diagonal(const CellLevel& level, const CellVectors& x, std::size_t i) {
+    CellVector mass{}, momentum{};
     for (std::uint32_t k = level.start[i], end = level.start[i + 1]; k < end; ++k) {
-        const Quad y = x[level.column[k]], a = level.coupling[k];
+        const CellVector y = x[level.column[k]], a = level.coupling[k];
         mass += a * y;
         momentum += broadcast(level.transport[k]) * y + a * broadcast(y[0]);
     }
@@ -116,10 +116,10 @@ inline Quad off_diagonal(const CellLevel& level, const Quads& x, std::size_t i) 
     return momentum;
 }
 
-inline Quad row_times(const CellLevel& level, const Quads& x, std::size_t i) {
+inline CellVector row_times(const CellLevel& level, const CellVectors& x, std::size_t i) {
     const CellMatrixRow& d = level.diagonal[i];
-    const Quad y = x[i], div = d.divergence * y;
-    Quad sum = broadcast(d.m_diagonal) * y + d.gradient * broadcast(y[0]);
+    const CellVector y = x[i], div = d.divergence * y;
+    CellVector sum = broadcast(d.m_diagonal) * y + d.gradient * broadcast(y[0]);
     sum[0] = d.p_diagonal * y[0] + (div[1] + div[2] + div[3]);
     return sum + off_diagonal(level, x, i);
 }
@@ -127,12 +127,12 @@ inline Quad row_times(const CellLevel& level, const Quads& x, std::size_t i) {
 /// Solves row i for its own four unknowns.
 inline void relax_row(CellLevel& level, std::size_t i) {
     const CellMatrixRow& d = level.diagonal[i];
-    const Quad right = level.b[i] - off_diagonal(level, level.x, i);
+    const CellVector right = level.b[i] - off_diagonal(level, level.x, i);
     const float inverse = 1 / d.m_diagonal;
-    const Quad through = d.divergence * right, square = d.divergence * d.gradient;
+    const CellVector through = d.divergence * right, square = d.divergence * d.gradient;
     const float schur = d.p_diagonal - (square[1] + square[2] + square[3]) * inverse;
     const float p = (right[0] - (through[1] + through[2] + through[3]) * inverse) / schur;
-    Quad x = broadcast(inverse) * (right - d.gradient * broadcast(p));
+    CellVector x = broadcast(inverse) * (right - d.gradient * broadcast(p));
     x[0] = p;
     level.x[i] = x;
 }
@@ -148,8 +148,10 @@ void sweep_there_and_back(CellLevel& level) {
     for (const bool back : {false, true})
         for (std::size_t n = 0; n < level.colours.size(); ++n) {
             const auto& blocks = level.colours[back ? level.colours.size() - 1 - n : n];
-            if (blocks.size() == 1) block(blocks[0], back);
-            else for_each_task(blocks.size(), [&](std::size_t k) { block(blocks[k], back); });
+            if (blocks.size() == 1)
+                block(blocks[0], back);
+            else
+                for_each_task(blocks.size(), [&](std::size_t k) { block(blocks[k], back); });
         }
 }
 
@@ -190,7 +192,8 @@ CellMatrix::CellMatrix(const CellMesh& mesh) {
             const std::uint32_t p = fine.parent[i];
             for (std::uint32_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
                 const std::uint32_t q = fine.parent[fine.column[k]];
-                const auto begin = coarse.column.begin() + coarse.start[p], end = coarse.column.begin() + coarse.start[p + 1];
+                const auto begin = coarse.column.begin() + coarse.start[p],
+                           end = coarse.column.begin() + coarse.start[p + 1];
                 fine.entry_parent[k] =
                     q == p ? CellLevel::inside : std::uint32_t(std::lower_bound(begin, end, q) - coarse.column.begin());
             }
@@ -205,19 +208,20 @@ void CellMatrix::make_coarse() {
         CellLevel& coarse = levels_[n + 1];
         for_each_index(coarse.size(), [&](std::size_t p) {
             CellMatrixRow sum;
-            for (std::uint32_t k = coarse.start[p]; k < coarse.start[p + 1]; ++k) coarse.coupling[k] = Quad{}, coarse.transport[k] = 0;
+            for (std::uint32_t k = coarse.start[p]; k < coarse.start[p + 1]; ++k)
+                coarse.coupling[k] = CellVector{}, coarse.transport[k] = 0;
             for (std::uint32_t c = coarse.child_start[p]; c < coarse.child_start[p + 1]; ++c) {
                 const std::uint32_t i = coarse.child[c];
                 const CellMatrixRow& own = fine.diagonal[i];
                 sum.p_diagonal += own.p_diagonal, sum.m_diagonal += own.m_diagonal;
                 sum.gradient += own.gradient, sum.divergence += own.divergence;
                 for (std::uint32_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
-                    const Quad a = fine.coupling[k];
+                    const CellVector a = fine.coupling[k];
                     if (const std::uint32_t to = fine.entry_parent[k]; to != CellLevel::inside) {
                         coarse.coupling[to] += a;
                         coarse.transport[to] += fine.transport[k];
                     } else {
-                        const Quad area{0, a[1], a[2], a[3]};
+                        const CellVector area{0, a[1], a[2], a[3]};
                         sum.p_diagonal += a[0], sum.m_diagonal += fine.transport[k];
                         sum.gradient += area, sum.divergence += area;
                     }
@@ -228,15 +232,15 @@ void CellMatrix::make_coarse() {
     }
 }
 
-void CellMatrix::multiply(const Quads& x, Quads& y) const {
+void CellMatrix::multiply(const CellVectors& x, CellVectors& y) const {
     const CellLevel& level = levels_.front();
     for_each_index(level.size(), [&](std::size_t i) { y[i] = row_times(level, x, i); });
 }
 
-void CellMatrix::precondition(const Quads& b, Quads& x) {
+void CellMatrix::precondition(const CellVectors& b, CellVectors& x) {
     CellLevel& level = levels_.front();
     level.b = b;
-    std::fill(level.x.begin(), level.x.end(), Quad{});
+    std::fill(level.x.begin(), level.x.end(), CellVector{});
     cycle(0);
     x = level.x;
 }
@@ -251,10 +255,11 @@ void CellMatrix::cycle(std::size_t n) {
     CellLevel& coarse = levels_[n + 1];
     for_each_index(level.size(), [&](std::size_t i) { level.r[i] = level.b[i] - row_times(level, level.x, i); });
     for_each_index(coarse.size(), [&](std::size_t p) {
-        Quad sum{};
-        for (std::uint32_t c = coarse.child_start[p]; c < coarse.child_start[p + 1]; ++c) sum += level.r[coarse.child[c]];
+        CellVector sum{};
+        for (std::uint32_t c = coarse.child_start[p]; c < coarse.child_start[p + 1]; ++c)
+            sum += level.r[coarse.child[c]];
         coarse.b[p] = sum;
-        coarse.x[p] = Quad{};
+        coarse.x[p] = CellVector{};
     });
     cycle(n + 1);
     for_each_index(level.size(), [&](std::size_t i) { level.x[i] += coarse.x[level.parent[i]]; });

@@ -25,20 +25,22 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
     double courant = settings.first_courant, limit = settings.courant, kappa = settings.kappa;
     double least = INFINITY;
     int cures = 0;
-    Quads right, change;
-    const auto precondition = [&](const Quads& x, Quads& y) { matrix.precondition(x, y); };
-    const auto multiply = [&](const Quads& x, Quads& y) {
+    CellVectors right, change;
+    const auto precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
+    const auto multiply = [&](const CellVectors& x, CellVectors& y) {
         matrix.multiply(x, y);
         balance.add_openings(x, y);
     };
     const auto fail = [&](const std::string& why) {
-        return DivergedError(fmt::format("the steady flow on cells {} after {} steps: the cells lack {:.2g} of the flow and {:.2g} of the forces, "
-                                         "where {:.2g} is asked for",
-                                         why, solution.history.size(), balance.volume_residual(), balance.momentum_residual(), settings.tolerance));
+        return DivergedError(fmt::format(
+            "the steady flow on cells {} after {} steps: the cells lack {:.2g} of the flow and {:.2g} of the forces, "
+            "where {:.2g} is asked for",
+            why, solution.history.size(), balance.volume_residual(), balance.momentum_residual(), settings.tolerance));
     };
     for (int step = 0; step <= settings.most_iterations; ++step) {
         balance.compute_residual(kappa);
-        const double volume = balance.volume_residual(), momentum = balance.momentum_residual(), worst = std::max(volume, momentum);
+        const double volume = balance.volume_residual(), momentum = balance.momentum_residual(),
+                     worst = std::max(volume, momentum);
         if (!std::isfinite(worst)) throw fail("lost its numbers");
         if (volume < settings.tolerance && momentum < settings.tolerance) {
             solution.is_converged = true;
@@ -49,7 +51,8 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
         if (step > 0) least = std::min(least, worst);
         if (worst > runaway * least) throw fail("ran away");
         balance.fill({courant}, matrix, right);
-        const KrylovResult linear = solve_by_krylov(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
+        const KrylovResult linear =
+            solve_by_krylov(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
         solution.history.push_back({volume, momentum, linear.residual, linear.steps, courant});
         solution.linear_steps += linear.steps;
         if (!(linear.residual < stagnant)) {

@@ -10,10 +10,10 @@
 namespace patency {
 
 struct CellSolverSettings {
-    double tolerance = 1e-6;           ///< of the sums of volume and momentum that cells lack
+    double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
     int most_iterations = 400;
     double first_courant = 5, courant = 100, growth = 1.4;
-    double kappa = 0.5;                ///< of the artificial sound speed: steady answers hardly depend on it
+    double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 10;
     double krylov_tolerance = 0.1;
     std::function<bool()> interrupted = {};   ///< asked after every step; true ends the run

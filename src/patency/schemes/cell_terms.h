@@ -9,12 +9,12 @@ namespace patency::cell_terms {
 
 /// A cell's values and their gradients at its point.
 struct CellState {
-    double p;       ///< pressure over density
-    Vec3 u;         ///< velocity
+    double p;   ///< pressure over density
+    Vec3 u;     ///< velocity
     Vec3 grad_p;
-    Mat3 grad_u;    ///< row a: gradient of u_a
-    double nu;      ///< kinematic viscosity
-    double c;       ///< artificial sound speed, THEORY.md (18.8)
+    Mat3 grad_u;   ///< row a: gradient of u_a
+    double nu;     ///< kinematic viscosity
+    double c;      ///< artificial sound speed, THEORY.md (18.8)
 
     double p_at(const Vec3& d) const { return p + dot(grad_p, d); }
     Vec3 u_at(const Vec3& d) const { return u + grad_u * d; }
@@ -42,7 +42,8 @@ inline Flux through_face(const Face& face, const CellState& a, const CellState& 
     const Mat3 grad_u = 0.5 * (a.grad_u + b.grad_u);
     const Vec3 mean_u = 0.5 * (a.u + b.u) + grad_u * off;
     const double mean_p = 0.5 * (a.p + b.p) + 0.5 * dot(a.grad_p + b.grad_p, off);
-    const double volume = dot(face.area, mean_u) - face.size / (a.c + b.c) * (b.p_at(face.from_b) - a.p_at(face.from_a));
+    const double volume =
+        dot(face.area, mean_u) - face.size / (a.c + b.c) * (b.p_at(face.from_b) - a.p_at(face.from_a));
     // Fromm: half way between the mean and what the side upstream extrapolates.
     const Vec3 carried = 0.5 * (mean_u + (volume > 0 ? a.u_at(face.from_a) : b.u_at(face.from_b)));
     const double nu = 0.5 * (a.nu + b.nu);
@@ -53,7 +54,9 @@ inline Flux through_face(const Face& face, const CellState& a, const CellState& 
 
 /// The slope of the velocity along the wall's normal into the blood [velocity / length]: the parabola through the wall's
 /// zero and the cell's value with the cell's slope. d: from the cell's point to the wall, distance: across it. THEORY.md (18.6)
-inline Vec3 wall_slope(const CellState& cell, const Vec3& d, double distance) { return (cell.u + cell.u_at(d)) / distance; }
+inline Vec3 wall_slope(const CellState& cell, const Vec3& d, double distance) {
+    return (cell.u + cell.u_at(d)) / distance;
+}
 
 /// What goes into a wall at rest: no volume. wall_nu: the viscosity at the wall's shear rate.    THEORY.md (18.7)
 inline Flux into_wall(const CellState& cell, const Vec3& area, const Vec3& d, double distance, double wall_nu) {
@@ -73,7 +76,8 @@ inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d
     return dot(cell.u, area) + norm(area) / cell.c * cell.p_at(d);
 }
 /// What goes out carries the cell's velocity; what comes in brings `entering`: with its own again an inflow would feed itself.
-inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure, const Vec3& entering) {
+inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure,
+                         const Vec3& entering) {
     const double volume = free_volume(cell, area, d) - norm(area) / cell.c * pressure;
     return {volume, volume * (volume < 0 ? entering : cell.u) + pressure * area};
 }
