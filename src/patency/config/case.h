@@ -56,8 +56,8 @@ inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylo
 enum class InitialPressure { zero, linear, estimate };
 inline Words words(InitialPressure) { return {"zero", "linear", "estimate"}; }
 
-enum class SchemeName { sph, paper };
-inline Words words(SchemeName) { return {"sph", "paper"}; }
+enum class SchemeName { sph, paper, cells };
+inline Words words(SchemeName) { return {"sph", "paper", "cells"}; }
 
 enum class Precision { mixed, double_ };   // "double" is a word of C++
 inline Words words(Precision) { return {"mixed", "double"}; }

@@ -419,7 +419,7 @@ const Table& table_of<Numerics>() {
     static const Table table = make_table<Numerics>(
         "How it is computed.",
         {
-            row(&Numerics::scheme, {.key = "scheme", .help = "the particle scheme: ours, or the reference paper's"}),
+            row(&Numerics::scheme, {.key = "scheme", .help = "moving particles, ours or the reference paper's, or a steady flow on the cells of still ones"}),
             row(&Numerics::spacing, {.key = "spacing", .help = "the distance between particles", .unit = "mm",
                                      .range = above_up_to(0, 1), .example = "0.2 mm", .need = always}),
             row(&Numerics::smoothing_ratio, {.key = "smoothing_ratio", .help = "smoothing length over spacing",

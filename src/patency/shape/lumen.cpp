@@ -63,6 +63,7 @@ Lumen moved(Lumen lumen, const RigidMotion& motion) {
         (differs(motion.rotation.x, {1, 0, 0}) || differs(motion.rotation.y, {0, 1, 0})))
         throw GeometryError("A periodic lumen cannot be turned: its period follows the axes.");
     lumen.distance = moved(std::move(lumen.distance), motion);
+    if (lumen.exact) lumen.exact = moved(std::move(*lumen.exact), motion);
     lumen.bounds = moved(lumen.bounds, motion);
     lumen.frame = motion.after(lumen.frame);
     for (Opening& opening : lumen.openings) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct Lumen {
     /// fit > 0 a whole number of cells fills that length [m].
     RigidMotion frame{};
     Vec3 fit{};
+    /// The same distance from the triangles themselves (exact_distance.h), where `distance` is a grid's: slower, but its
+    /// nearest place lies on the wall to round-off. None where `distance` is as good.
+    std::optional<SignedDistance> exact{};
 };
 
 /// Which opening's straight continuation holds x (its index), or -1. x may lie up to `margin` [m] beside the

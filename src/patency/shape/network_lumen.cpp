@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "patency/base/errors.h"
+#include "patency/shape/exact_distance.h"
 #include "patency/shape/level_surface.h"
 #include "patency/shape/network_field.h"
 #include "patency/shape/surface_cut.h"
@@ -122,6 +123,7 @@ Lumen make_network_lumen(const Network& network, double extension, double resolu
         14;   // of the resolution: a wall for the kernels of particles twice as wide apart
     SignedDistance distance = made_when_asked(
         [surface, resolution] { return make_surface_distance(surface, resolution, voxels_outside * resolution); }, bounds(surface));
+    SignedDistance exact = made_when_asked([surface] { return make_exact_distance(surface); }, bounds(surface));
     cut_openings(surface, openings, cell, extension);
     const Surface wall = wall_of(surface);
     return {.distance = std::move(distance),
@@ -131,7 +133,8 @@ Lumen make_network_lumen(const Network& network, double extension, double resolu
             .extension = extension,
             .bounds = bounds(surface),
             .narrowest = narrowest_diameter(network),
-            .passage = passage_of(network)};
+            .passage = passage_of(network),
+            .exact = std::move(exact)};
 }
 
 }   // namespace patency

@@ -7,8 +7,6 @@
 
 namespace patency {
 
-namespace {
-
 Rheology make_rheology(const deck::Blood& blood) {
     switch (blood.law) {
         case deck::BloodLaw::newtonian: break;
@@ -25,8 +23,6 @@ Rheology make_rheology(const deck::Blood& blood) {
     }
     return Newtonian{blood.viscosity};
 }
-
-}   // namespace
 
 FluidMaterial make_material(const deck::Blood& blood) {
     const Rheology law = make_rheology(blood);

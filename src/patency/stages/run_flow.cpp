@@ -4,11 +4,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <omp.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -23,10 +20,12 @@
 #include "patency/io/summary.h"
 #include "patency/io/vtp.h"
 #include "patency/stages/build.h"
+#include "patency/stages/cell_flow.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_recorder.h"
 #include "patency/stages/flow_window.h"
+#include "patency/stages/stopwatch.h"
 #include "patency/stages/vessel_results.h"
 
 namespace patency {
@@ -36,29 +35,6 @@ namespace {
 // Instants that the means along a vessel are made of: a steady flow only trembles, a pulse has its form.
 constexpr int steady_instants = 5, periodic_instants = 40;
 constexpr std::size_t most_offenders = 1000;   // of a run that diverged: enough to see where
-
-/// Wall and processor time since it was made.
-class Stopwatch {
-public:
-    double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
-    double cpu() const { return cpu_now() - cpu_; }
-
-private:
-    static double cpu_now() {
-        rusage used{};
-        getrusage(RUSAGE_SELF, &used);
-        const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-        return seconds(used.ru_utime) + seconds(used.ru_stime);
-    }
-    std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-    double cpu_ = cpu_now();
-};
-
-std::string machine_name() {
-    char name[256] = {};
-    gethostname(name, sizeof name - 1);
-    return name;
-}
 
 /// One flow stage from its folder's state to its end.
 class FlowJob {
@@ -269,6 +245,8 @@ private:
 
 }  // namespace
 
-Outcome run_flow(const deck::Case& config, const FlowStage& stage) { return FlowJob(config, stage).run(); }
+Outcome run_flow(const deck::Case& config, const FlowStage& stage) {
+    return config.numerics.scheme == deck::SchemeName::cells ? run_cell_flow(config, stage) : FlowJob(config, stage).run();
+}
 
 }  // namespace patency

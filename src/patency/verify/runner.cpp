@@ -51,7 +51,7 @@ public:
 
     CaseReport run() {
         std::map<std::string, RunData> runs;
-        if (case_.measure) {
+        if (case_.measure || case_.measure_cells) {
             make_folder(folder());
             const fs::path deck = request_.decks / (case_.name + ".yaml");
             for (const deck::NamedCase& run : deck::read_runs(deck, request_.settings))
@@ -114,25 +114,37 @@ private:
         RunData data;
         const double cpu = cpu_seconds();
         const auto start = std::chrono::steady_clock::now();
+        const auto stop_if_asked = [&] {
+            if (request_.interrupted && request_.interrupted())
+                throw Error(ExitCode::interrupted, "the verification was interrupted; the same command goes on with it");
+        };
         try {
-            const auto scene = build_scene(named.resolved);
-            for (const std::int32_t opening : scene->fluid.opening) data.particles += opening == 0;
-            std::int64_t steps = 0;
-            const auto watch = [&](const Scene& now) {
-                data.particle_steps += double(now.fluid.size()) * double(now.acoustic_steps - steps);
-                steps = now.acoustic_steps;
-                if (request_.report) request_.report({case_.name, named.name, now.time / named.resolved.numerics.duration});
-                if (request_.interrupted && request_.interrupted())
-                    throw Error(ExitCode::interrupted, "the verification was interrupted; the same command goes on with it");
-            };
-            case_.measure(*scene, {named.name, request_.reference, watch}, data);
-            data.acoustic_steps = scene->acoustic_steps;
+            if (case_.measure_cells) {
+                case_.measure_cells(named.resolved, named.name, request_.interrupted, data);
+                stop_if_asked();
+            } else {
+                measure_particles(named, stop_if_asked, data);
+            }
         } catch (const DivergedError& error) {
             data.failure = error.what();
         }
         data.cpu_s = cpu_seconds() - cpu;
         data.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return data;
+    }
+
+    void measure_particles(const deck::NamedCase& named, const std::function<void()>& stop_if_asked, RunData& data) const {
+        const auto scene = build_scene(named.resolved);
+        for (const std::int32_t opening : scene->fluid.opening) data.particles += opening == 0;
+        std::int64_t steps = 0;
+        const auto watch = [&](const Scene& now) {
+            data.particle_steps += double(now.fluid.size()) * double(now.acoustic_steps - steps);
+            steps = now.acoustic_steps;
+            if (request_.report) request_.report({case_.name, named.name, now.time / named.resolved.numerics.duration});
+            stop_if_asked();
+        };
+        case_.measure(*scene, {named.name, request_.reference, watch}, data);
+        data.acoustic_steps = scene->acoustic_steps;
     }
 
     const VerifyRequest& request_;

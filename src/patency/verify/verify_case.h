@@ -62,7 +62,9 @@ struct VerifyCase {
     std::string title;                            ///< one line for the report
     Level level = Level::quick;                   ///< full: all of it runs at level full only
     std::function<bool(const std::string&)> is_full;   ///< which runs are; empty: none
-    std::function<void(Scene&, const RunContext&, RunData&)> measure;   ///< empty: the case has no deck
+    std::function<void(Scene&, const RunContext&, RunData&)> measure;   ///< of moving particles
+    /// Of a flow on cells instead, which it makes and solves itself; interrupted tells the solver to stop. Neither: no deck.
+    std::function<void(const deck::Case&, const std::string& run, const std::function<bool()>& interrupted, RunData&)> measure_cells = {};
     std::function<void(const Results&, FigureList&)> figures;
     std::function<std::vector<Picture>(const Results&)> pictures;       ///< may be empty
 };
@@ -77,5 +79,6 @@ std::vector<VerifyCase> windkessel_cases();  // windkessel
 std::vector<VerifyCase> operator_cases();    // lattice_operators
 std::vector<VerifyCase> nozzle_cases();      // fda_nozzle
 std::vector<VerifyCase> coronary_cases();    // coronary_bifurcation
+std::vector<VerifyCase> cell_cases();        // cells_pipe
 
 }  // namespace patency

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/schemes/cell_balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/base/parallel.h"
+#include "patency/cells/point_tree.h"
+#include "patency/physics/fluid/shear_rate.h"
+
+namespace patency {
+
+using namespace cell_terms;
+
+CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span<const CellEnd> ends,
+                         double reference_speed)
+    : mesh_(mesh),
+      fluid_(fluid),
+      speed_(reference_speed),
+      is_newtonian_(std::holds_alternative<Newtonian>(fluid.rheology)) {
+    std::vector<char> has_velocity, has_pressure;
+    double pressures = 0, count = 0;
+    for (const CellEnd& said : ends) {
+        has_velocity.push_back(said.kind == CellEnd::Kind::velocity);
+        has_pressure.push_back(said.kind == CellEnd::Kind::pressure);
+        if (said.kind == CellEnd::Kind::pressure) pressures += said.pressure, count += 1;
+    }
+    if (count == 0)
+        throw DeckError(
+            "openings: all prescribe their flow, so that nothing tells the level of the pressure; give one a pressure "
+            "or a resistance");
+    level_ = pressures / count;
+    for_pressure_ = make_gradients(mesh, has_pressure);
+    for_velocity_ =
+        fluid.free_slip ? make_gradients(mesh, has_velocity) : make_gradients_at_rest_on_walls(mesh, has_velocity);
+
+    const std::size_t cells = mesh.size();
+    for (const double volume : mesh.volume) width_.push_back(std::cbrt(volume));
+    state_.resize(cells), grad_p_.resize(cells), grad_u_.resize(cells), lack_.resize(cells);
+    p_.assign(cells, 0), u_.assign(cells, {});
+    face_flux_.resize(mesh.faces.size());
+    patch_flux_.resize(mesh.patches.size());
+    imposed_.resize(mesh.patches.size());
+    ends_.resize(ends.size());
+    for (std::uint32_t k = 0; k < mesh.patches.size(); ++k)
+        if (const int o = mesh.patches[k].opening; o >= 0) ends_[std::size_t(o)].patches.push_back(k);
+    for (std::size_t k = 0; k < ends.size(); ++k) set_end(ends[k], ends_[k]);
+}
+
+void CellBalance::set_end(const CellEnd& said, End& end) {
+    end.kind = said.kind;
+    end.wanted = said.flow * mesh_.depth / speed_;
+    end.response = {(said.pressure - level_) / (fluid_.density * speed_ * speed_),
+                    said.resistance / mesh_.depth / (fluid_.density * speed_)};
+    const double wanted = said.kind == CellEnd::Kind::velocity ? end.wanted : -1;
+    double carried = 0;
+    for (const std::uint32_t k : end.patches) {
+        const CellPatch& patch = mesh_.patches[k];
+        imposed_[k] = said.velocity ? said.velocity(patch.centroid) / speed_ : -patch.normal;
+        carried += dot(imposed_[k], patch.area);
+    }
+    if (wanted != 0 && !(std::abs(carried) > 1e-3 * std::abs(end.wanted)))
+        throw DeckError("openings: the velocity over an opening carries nothing of its flow");
+    for (const std::uint32_t k : end.patches) imposed_[k] *= carried != 0 ? wanted / carried : 0;
+}
+
+void CellBalance::set_fields(const CellFields& fields) {
+    const double scale = fluid_.density * speed_ * speed_;
+    for (std::size_t i = 0; i < mesh_.size(); ++i) {
+        p_[i] = (fields.pressure[i] - level_) / scale;
+        u_[i] = fields.velocity[i] / speed_;
+    }
+}
+
+CellFields CellBalance::fields() const {
+    CellFields fields;
+    for (std::size_t i = 0; i < mesh_.size(); ++i) {
+        fields.pressure.push_back(level_ + fluid_.density * speed_ * speed_ * p_[i]);
+        fields.velocity.push_back(speed_ * u_[i]);
+    }
+    return fields;
+}
+
+void CellBalance::compute_gradients() {
+    for_each_index(mesh_.size(), [&](std::size_t i) {
+        const Vec3 u = u_[i], self = for_velocity_.self[i];
+        Vec3 p{};
+        Mat3 g = outer(u, self);
+        for (std::size_t k = mesh_.row_start[i]; k < mesh_.row_start[i + 1]; ++k) {
+            const std::uint32_t j = mesh_.row[k].cell;
+            p += (p_[j] - p_[i]) * for_pressure_.row[k];
+            g += outer(u_[j] - u, for_velocity_.row[k]);
+        }
+        for (std::size_t k = mesh_.patch_start[i]; k < mesh_.patch_start[i + 1]; ++k) {
+            if (mesh_.patches[k].opening < 0) continue;
+            const End& end = ends_[std::size_t(mesh_.patches[k].opening)];
+            if (end.kind == CellEnd::Kind::velocity)
+                g += outer(imposed_[k] - u, for_velocity_.patch[k]);
+            else
+                p += (end.pressure - p_[i]) * for_pressure_.patch[k];
+        }
+        grad_p_[i] = p;
+        grad_u_[i] = g;
+    });
+}
+
+void CellBalance::compute_cell_states(double kappa) {
+    for_each_index(mesh_.size(), [&](std::size_t i) {
+        const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
+                          (fluid_.density * speed_);
+        state_[i] = {p_[i], u_[i], grad_p_[i], grad_u_[i], nu, sound_speed(kappa, norm(u_[i]), nu, width_[i])};
+    });
+}
+
+Face CellBalance::face_of(const CellFace& face) const {
+    return {face.area, norm(face.area), face.conductance, face.centroid - mesh_.point[face.a],
+            face.centroid - mesh_.point[face.b]};
+}
+
+void CellBalance::compute_open_pressures() {
+    for (End& end : ends_) {
+        if (end.kind == CellEnd::Kind::velocity) continue;
+        double free = 0;
+        end.conductance = 0;
+        for (const std::uint32_t k : end.patches) {
+            const CellPatch& patch = mesh_.patches[k];
+            free += free_volume(state_[patch.cell], patch.area, way_to(patch));
+            end.conductance += norm(patch.area) / state_[patch.cell].c;
+        }
+        // A flow that is prescribed is an endless resistance.
+        const bool is_flow = end.kind == CellEnd::Kind::flow;
+        end.pressure = is_flow ? (free - end.wanted) / end.conductance : end.response.pressure(free, end.conductance);
+        end.flow = free - end.conductance * end.pressure;
+        end.slope = is_flow ? 1 / end.conductance : end.response.slope(end.conductance);
+    }
+}
+
+double CellBalance::wall_viscosity(const CellState& cell, const CellPatch& patch) const {
+    if (is_newtonian_) return cell.nu;
+    const double rate = norm(wall_slope(cell, way_to(patch), patch.distance)) * speed_;
+    return viscosity(fluid_.rheology, rate) / (fluid_.density * speed_);
+}
+
+void CellBalance::compute_patch_fluxes() {
+    for_each_index(mesh_.patches.size(), [&](std::size_t k) {
+        const CellPatch& patch = mesh_.patches[k];
+        const CellState& cell = state_[patch.cell];
+        const Vec3 d = way_to(patch);
+        if (patch.opening == CellPatch::symmetry || (patch.opening == CellPatch::wall && fluid_.free_slip))
+            patch_flux_[k] = into_slip(cell, patch.area, d);
+        else if (patch.opening == CellPatch::wall)
+            patch_flux_[k] = into_wall(cell, patch.area, d, patch.distance, wall_viscosity(cell, patch));
+        else if (is_open(patch))
+            patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
+                                          std::max(0.0, -ends_[std::size_t(patch.opening)].flow) * imposed_[k]);
+        else
+            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed_[k]);
+    });
+}
+
+void CellBalance::sum_fluxes() {
+    for_each_index(mesh_.size(), [&](std::size_t i) {
+        Flux sum{0, {}};
+        for (const CellNeighbour& n : mesh_.neighbours(i)) {
+            const double sign = mesh_.faces[n.face].a == i ? 1 : -1;
+            sum.volume += sign * face_flux_[n.face].volume;
+            sum.momentum += sign * face_flux_[n.face].momentum;
+        }
+        for (std::size_t k = mesh_.patch_start[i]; k < mesh_.patch_start[i + 1]; ++k) {
+            sum.volume += patch_flux_[k].volume;
+            sum.momentum += patch_flux_[k].momentum;
+        }
+        lack_[i] = sum;
+    });
+    double through = 0, force = 0;
+    for (End& end : ends_) {
+        end.flow = 0;
+        for (const std::uint32_t k : end.patches) {
+            end.flow += patch_flux_[k].volume;
+            force += std::abs(patch_flux_[k].volume) * norm(state_[mesh_.patches[k].cell].u);
+        }
+        through += 0.5 * std::abs(end.flow);
+    }
+    force += sum_of(mesh_.patches.size(), [&](std::size_t k) {
+        const CellPatch& patch = mesh_.patches[k];
+        if (patch.opening != CellPatch::wall || fluid_.free_slip) return 0.0;
+        const CellState& cell = state_[patch.cell];
+        return wall_viscosity(cell, patch) * norm(patch.area) * norm(wall_slope(cell, way_to(patch), patch.distance));
+    });
+    const double none = 1e-300;
+    volume_residual_ =
+        sum_of(mesh_.size(), [&](std::size_t i) { return std::abs(lack_[i].volume); }) / std::max(through, none);
+    momentum_residual_ =
+        sum_of(mesh_.size(), [&](std::size_t i) { return norm(lack_[i].momentum); }) / std::max(force, none);
+}
+
+void CellBalance::compute_residual(double kappa) {
+    compute_gradients();   // with the openings' pressures of the last time
+    compute_cell_states(kappa);
+    compute_open_pressures();
+    for_each_index(mesh_.faces.size(), [&](std::size_t f) {
+        const CellFace& face = mesh_.faces[f];
+        face_flux_[f] = through_face(face_of(face), state_[face.a], state_[face.b], is_newtonian_);
+    });
+    compute_patch_fluxes();
+    sum_fluxes();
+}
+
+void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& right) const {
+    CellLevel& level = matrix.finest();
+    right.resize(mesh_.size());
+    const auto quad = [](double first, const Vec3& v) {
+        return CellVector{float(first), float(v.x), float(v.y), float(v.z)};
+    };
+    for_each_index(mesh_.size(), [&](std::size_t i) {
+        const CellState& cell = state_[i];
+        double p_diagonal = 0, m_diagonal = 0, signals = 0;
+        Vec3 gradient{}, divergence{};
+        for (std::size_t k = mesh_.row_start[i]; k < mesh_.row_start[i + 1]; ++k) {
+            const CellNeighbour& n = mesh_.row[k];
+            const CellFace& face = mesh_.faces[n.face];
+            const double sign = face.a == i ? 1 : -1, size = norm(face.area), volume = sign * face_flux_[n.face].volume;
+            const double both = cell.c + state_[n.cell].c, nu = 0.5 * (cell.nu + state_[n.cell].nu),
+                         viscous = nu * face.conductance;
+            const double coupling = size / both, transport = std::min(volume, 0.0) - viscous;
+            const Vec3 half = 0.5 * sign * face.area;
+            level.coupling[k] = quad(-coupling, half);
+            level.transport[k] = float(transport);
+            p_diagonal += coupling;
+            m_diagonal -= transport;
+            gradient += half;
+            divergence += half;
+            signals += 0.5 * size * both + 0.5 * std::abs(volume) + 2 * viscous;
+        }
+        for (std::size_t k = mesh_.patch_start[i]; k < mesh_.patch_start[i + 1]; ++k) {
+            const CellPatch& patch = mesh_.patches[k];
+            const double size = norm(patch.area), viscous = cell.nu * size / patch.distance;
+            if (patch.opening >= 0) m_diagonal += std::max(0.0, -patch_flux_[k].volume);   // what comes in is held
+            if (is_open(patch)) {
+                divergence += patch.area;
+                p_diagonal += size / cell.c;
+                continue;
+            }
+            gradient += patch.area;
+            if (patch.opening >= 0)
+                m_diagonal += viscous;
+            else if (patch.opening == CellPatch::wall && !fluid_.free_slip)
+                m_diagonal += 1.5 * viscous;
+        }
+        const double slowness = signals / (2 * step.courant);
+        m_diagonal += slowness;
+        p_diagonal += step.pressure_share * slowness / (cell.c * cell.c);
+        level.diagonal[i] = {float(p_diagonal), float(m_diagonal), quad(0, gradient), quad(0, divergence)};
+        right[i] = quad(-lack_[i].volume, -1.0 * lack_[i].momentum);
+    });
+    matrix.make_coarse();
+}
+
+void CellBalance::add_openings(const CellVectors& x, CellVectors& y) const {
+    for (const End& end : ends_) {
+        if (end.kind == CellEnd::Kind::velocity || !(end.slope > 0)) continue;
+        double free = 0;
+        for (const std::uint32_t k : end.patches) {
+            const CellPatch& patch = mesh_.patches[k];
+            const CellVector& z = x[patch.cell];
+            free += dot(patch.area, Vec3{z[1], z[2], z[3]}) + norm(patch.area) / state_[patch.cell].c * double(z[0]);
+        }
+        const double pressure = end.slope * free;
+        for (const std::uint32_t k : end.patches) {
+            const CellPatch& patch = mesh_.patches[k];
+            const Vec3 force = pressure * patch.area;
+            y[patch.cell] += CellVector{float(-pressure * norm(patch.area) / state_[patch.cell].c), float(force.x),
+                                        float(force.y), float(force.z)};
+        }
+    }
+}
+
+void CellBalance::apply(const CellVectors& change) {
+    for_each_index(mesh_.size(), [&](std::size_t i) {
+        p_[i] += double(change[i][0]);
+        u_[i] += Vec3{change[i][1], change[i][2], change[i][3]};
+    });
+}
+
+std::vector<CellEndState> CellBalance::end_states() const {
+    const double scale = fluid_.density * speed_ * speed_;
+    std::vector<CellEndState> states;
+    for (const End& end : ends_) {
+        double pressure = 0, area = 0;
+        for (const std::uint32_t k : end.patches) {
+            const CellPatch& patch = mesh_.patches[k];
+            pressure += norm(patch.area) * state_[patch.cell].p_at(way_to(patch));
+            area += norm(patch.area);
+        }
+        const double mean = end.kind == CellEnd::Kind::velocity ? pressure / area : end.pressure;
+        states.push_back({end.flow * speed_ / mesh_.depth, level_ + scale * mean});
+    }
+    return states;
+}
+
+std::vector<Vec3> CellBalance::wall_shear_stress() const {
+    std::vector<Vec3> stress(mesh_.patches.size());
+    if (fluid_.free_slip) return stress;
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+        const CellPatch& patch = mesh_.patches[k];
+        if (patch.opening != CellPatch::wall) continue;
+        const CellState& cell = state_[patch.cell];
+        const Vec3 slope = wall_slope(cell, way_to(patch), patch.distance);
+        const Vec3 along = slope - dot(slope, patch.normal) * patch.normal;
+        stress[k] = fluid_.density * speed_ * speed_ * wall_viscosity(cell, patch) * along;
+    }
+    return stress;
+}
+
+CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
+    const PointTree tree(mesh_.point);
+    CellFields fields{std::vector<double>(places.size()), std::vector<Vec3>(places.size())};
+    const double first = *std::max_element(width_.begin(), width_.end());
+    for_each_index(places.size(), [&](std::size_t n) {
+        std::vector<std::uint32_t> found;
+        for (double reach = first; found.empty(); reach *= 2) tree.find(places[n], reach, found);
+        const std::uint32_t nearest =
+            *std::min_element(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
+                const Vec3 p = mesh_.point[a] - places[n], q = mesh_.point[b] - places[n];
+                return dot(p, p) != dot(q, q) ? dot(p, p) < dot(q, q) : a < b;
+            });
+        const Vec3 d = places[n] - mesh_.point[nearest];
+        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ * state_[nearest].p_at(d);
+        fields.velocity[n] = speed_ * state_[nearest].u_at(d);
+    });
+    return fields;
+}
+
+}   // namespace patency

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steady flow through a lumen at rest on the cells of its particles: implicit steps in pseudo-time with artificial
+// compressibility until every cell is in balance. Never returns a flow that is not.            THEORY.md section 18
+#pragma once
+
+#include <functional>
+
+#include "patency/schemes/cell_balance.h"
+
+namespace patency {
+
+struct CellSolverSettings {
+    double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
+    int most_iterations = 400;
+    double first_courant = 5, courant = 100, growth = 1.4;
+    double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
+    int krylov_steps = 10;
+    double krylov_tolerance = 0.1;
+    std::function<bool()> interrupted = {};   ///< asked after every step; true ends the run
+};
+
+struct CellIteration {
+    double volume_residual, momentum_residual, linear_residual;
+    int linear_steps;
+    double courant;
+};
+
+struct CellSolution {
+    bool is_converged = false;   ///< false: interrupted
+    std::vector<CellIteration> history;
+    int linear_steps = 0;
+};
+
+/// From the fields that the balance has. Throws DivergedError if it cannot be brought to the tolerance: what, and how far.
+CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings);
+
+}   // namespace patency

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/cell_flow.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "patency/base/errors.h"
+#include "patency/base/parallel.h"
+#include "patency/config/deck.h"
+#include "patency/io/pvd.h"
+#include "patency/io/summary.h"
+#include "patency/io/vtp.h"
+#include "patency/stages/stopwatch.h"
+
+namespace patency {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+PointArray vectors(const std::string& name, const std::string& unit, std::span<const Vec3> values) {
+    PointArray array{name, unit, 3, {}};
+    for (const Vec3& v : values) array.values.insert(array.values.end(), {v.x, v.y, v.z});
+    return array;
+}
+
+void write_cells(const OutputFolder& folder, const CellScene& scene) {
+    const CellFields fields = scene.balance->fields();
+    PolyData data{.points = scene.mesh.point};
+    data.arrays = {vectors("velocity", "m/s", fields.velocity),
+                   {"pressure", "Pa", 1, fields.pressure},
+                   {"volume", "m^3", 1, scene.mesh.volume}};
+    const auto file = frame_file("fluid", 0);
+    write_polydata(folder.file(file.string()), data);
+    PvdWriter(folder.file("fluid.pvd")).add(0, file);
+}
+
+/// Middles of the cells' sides at the wall.
+void write_wall(const OutputFolder& folder, const CellScene& scene) {
+    PolyData data;
+    std::vector<Vec3> stress, normal;
+    std::vector<double> area;
+    const std::vector<Vec3> all = scene.balance->wall_shear_stress();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const CellPatch& patch = scene.mesh.patches[k];
+        if (patch.opening != CellPatch::wall) continue;
+        data.points.push_back(patch.centroid);
+        stress.push_back(all[k]);
+        normal.push_back(patch.normal);
+        area.push_back(norm(patch.area));
+    }
+    data.arrays = {
+        vectors("wall_shear_stress", "Pa", stress), vectors("normal_direction", "1", normal), {"area", "m^2", 1, area}};
+    const auto file = frame_file("wall", 0);
+    write_polydata(folder.file(file.string()), data);
+    PvdWriter(folder.file("wall.pvd")).add(0, file);
+}
+
+void expect_finite(const Json& json, const std::string& path) {
+    if (json.is_object())
+        for (const auto& [key, value] : json.items()) expect_finite(value, path.empty() ? key : path + "." + key);
+    else if (json.is_number_float() && !std::isfinite(json.get<double>()))
+        throw DivergedError(fmt::format("{} is not a finite number: the flow diverged", path));
+}
+
+}   // namespace
+
+Json make_cell_summary(const CellScene& scene) {
+    const deck::Case& config = scene.config;
+    Json summary;
+    summary["name"] = config.about.name;
+    summary["scheme"] = deck::word_of(config.numerics.scheme);
+    summary["planar"] = scene.lumen.planar;
+    summary["pressure_datum"] = config.aorta.pressure ? "absolute" : "gauge";
+    Json openings = Json::object();
+    const std::vector<CellEndState> ends = scene.balance->end_states();
+    double out = 0, through = 0;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        const Opening& opening = scene.lumen.openings[k];
+        Json& here = openings[opening.name];
+        here = {{"flow_m3_per_s", ends[k].flow},
+                {"mean_pressure_pa", ends[k].pressure},
+                {"mean_velocity_m_per_s", ends[k].flow / opening.area},
+                {"area_m2", opening.area}};
+        if (config.openings.at(opening.name).type == deck::OpeningType::resistance) {
+            here["resistance_pa_s_per_m3"] = scene.ends[k].resistance;
+            here["distal_pressure_pa"] = scene.ends[k].pressure;
+        }
+        out += ends[k].flow, through += 0.5 * std::abs(ends[k].flow);
+    }
+    summary["openings"] = openings;
+    summary["gauge_pressure_ratio"] =
+        nullptr;   // of the pressures on both sides of a lesion, which decks cannot mark yet
+    summary["ffr"] = {
+        {"lesion", nullptr},
+        {"reason", config.aorta.pressure ? "no lesion is marked in the deck" : "the deck gives no aortic pressure"}};
+    summary["mass_imbalance_percent"] = through > 0 ? 100 * std::abs(out) / through : 0;
+    const CellFields fields = scene.balance->fields();
+    const auto mean = [&](auto value) {
+        return sum_of(scene.mesh.size(), [&](std::size_t i) { return scene.mesh.volume[i] * value(i); }) /
+               sum_of(scene.mesh.size(), [&](std::size_t i) { return scene.mesh.volume[i]; });
+    };
+    summary["largest_speed_m_per_s"] =
+        largest_of(scene.mesh.size(), [&](std::size_t i) { return norm(fields.velocity[i]); });
+    summary["mean_speed_m_per_s"] = mean([&](std::size_t i) { return norm(fields.velocity[i]); });
+    summary["mean_pressure_pa"] = mean([&](std::size_t i) { return fields.pressure[i]; });
+    summary["particles"] = {{"fluid", scene.mesh.size()},
+                            {"inside", scene.mesh.size()},
+                            {"wall", 0},
+                            {"across_narrowest", scene.lumen.narrowest / config.numerics.spacing},
+                            {"led_back_from_wall", scene.mesh.led_back}};
+    summary["spacing_m"] = config.numerics.spacing;
+    summary["reference_speed_m_per_s"] = scene.reference_speed;
+    summary["acoustic_steps"] = 0;
+    summary["iterations"] = scene.solution.history.size();
+    summary["linear_steps"] = scene.solution.linear_steps;
+    summary["volume_residual"] = scene.balance->volume_residual();
+    summary["momentum_residual"] = scene.balance->momentum_residual();
+    expect_finite(summary, "");
+    return summary;
+}
+
+Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
+    const Stopwatch watch;
+    const auto say = [&](const std::string& line) { stage.log(LogLevel::info, line); };
+    deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+    std::size_t cells = 0;
+    std::int64_t steps = 0;
+    double build_cpu = 0, build_wall = 0;
+    const double wanted = CellSolverSettings{}.tolerance;
+    const auto progress_of = [&](const CellScene& scene) {
+        const double residual = std::max(scene.balance->volume_residual(), scene.balance->momentum_residual());
+        double out = 0;
+        for (const CellEndState& end : scene.balance->end_states()) out += end.flow;
+        return ProgressState{.stage = "flow",
+                             .fraction = std::clamp(std::log(residual) / std::log(wanted), 0.0, 1.0),
+                             .time = 0,
+                             .step = steps,
+                             .net_inflow = -out};
+    };
+    const auto scene = make_solved_scene(config, [&](const CellScene& now) {
+        if (now.mesh.size() != cells) {
+            cells = now.mesh.size();
+            build_cpu = watch.cpu(), build_wall = watch.wall();
+            say(fmt::format("{} cells", cells));
+        }
+        ++steps;
+        if (stage.progress) stage.progress->update(progress_of(now));
+        return stage.interrupted && stage.interrupted();
+    });
+    if (!scene->solution.is_converged) {
+        say("interrupted; the flow on cells begins anew the next time");
+        return Outcome::interrupted;
+    }
+    if (stage.progress) stage.progress->finish(progress_of(*scene));
+    write_cells(stage.folder, *scene);
+    write_wall(stage.folder, *scene);
+    write_summary(stage.folder.file("summary.json"), make_cell_summary(*scene));
+    write_summary(stage.folder.file("timing.json"),
+                  {{"build", {{"cpu_s", build_cpu}, {"wall_s", build_wall}}},   // the coarse solution included
+                   {"flow", {{"cpu_s", watch.cpu() - build_cpu}, {"wall_s", watch.wall() - build_wall}}},
+                   {"resumed", false},
+                   {"threads", omp_get_max_threads()},
+                   {"machine", machine_name()},
+                   {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}});
+    say(fmt::format("done: {} steps in {:.1f} s", scene->solution.history.size(), watch.wall()));
+    return Outcome::done;
+}
+
+}   // namespace patency

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/cell_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "patency/base/errors.h"
+#include "patency/bodies/relax.h"
+#include "patency/physics/open_ends/profile.h"
+#include "patency/stages/bed.h"
+#include "patency/stages/end_law.h"
+#include "patency/stages/lumen_of_case.h"
+#include "patency/stages/material.h"
+#include "patency/stages/speeds.h"
+
+namespace patency {
+
+namespace {
+
+constexpr double steady_time = 1e6;         // s: when every rise from rest is over
+constexpr double coarsening = 1.6;          // of the spacing of the first solution: a quarter of the cells
+constexpr double fewest_across = 6;         // of the narrowest place, in a first solution
+constexpr double coarse_tolerance = 1e-3;   // of it: less than what the coarse cells err by
+constexpr double first_courant = 20;        // from a coarse solution: no start from rest
+
+void expect_steady(const deck::Case& config) {
+    const std::string ask = "; scheme sph can do that";
+    if (config.about.mode != deck::Mode::steady)
+        throw DeckError("numerics.scheme: cells is for steady flows, and the case is periodic" + ask);
+    if (config.wall.motion != deck::WallMotion::rigid)
+        throw DeckError("numerics.scheme: cells is for rigid walls" + ask);
+    if (!config.wall.velocity.empty())
+        throw DeckError("numerics.scheme: cells is for walls at rest, and wall.velocity moves them" + ask);
+    if (norm(config.body_force) > 0) throw DeckError("numerics.scheme: cells knows no body_force" + ask);
+    for (const auto& [name, opening] : config.openings)
+        if (opening.waveform)
+            throw DeckError(fmt::format("openings.{}.waveform: cells is for steady flows{}", name, ask));
+}
+
+OpenEnd::Kind kind_of(const EndLaw& law) {
+    return law.prescribes_flow() ? OpenEnd::Kind::velocity : OpenEnd::Kind::pressure;
+}
+
+CellEnd make_end(const Opening& opening, const deck::Opening& said, const EndLaw& law, const deck::Blood& blood) {
+    CellEnd end;
+    const Section section = opening.planar ? Section::planar : Section::circular;
+    // What enters through an opening whose profile nobody gives has come a long way through such a vessel.
+    end.velocity = [opening, section](const Vec3& x) {
+        return -parabola_profile(section, norm(opening_coordinates(opening, x).radial) / opening.radius) *
+               opening.normal;
+    };
+    if (kind_of(law) == OpenEnd::Kind::velocity) {
+        end.flow = -law.signal(steady_time);
+        // Blood that is drawn out finds its own profile.
+        end.kind = end.flow > 0 ? CellEnd::Kind::flow : CellEnd::Kind::velocity;
+        if (end.kind == CellEnd::Kind::velocity)
+            end.velocity = [imposed = make_end_velocity(opening, said, law, blood)](const Vec3& x) {
+                return imposed(x, steady_time);
+            };
+        return end;
+    }
+    if (!law.outlet) {
+        end.pressure = law.signal(steady_time);
+        return end;
+    }
+    // Steadily, a model is its resistances.
+    end.pressure = outlet_pressure(*law.outlet, make_steady_state(*law.outlet, 0), 0);
+    end.resistance = outlet_pressure(*law.outlet, make_steady_state(*law.outlet, 1), 1) - end.pressure;
+    return end;
+}
+
+}   // namespace
+
+Lumen make_cell_lumen(const deck::Case& config) {
+    expect_steady(config);
+    return make_lumen(config);
+}
+
+CellPoints make_cell_points(const Lumen& lumen, double spacing) {
+    const FittedPoints fitted = make_relaxed_points(lumen, spacing, {});
+    const std::size_t count = fitted.fluid_count.empty() ? fitted.fluid.size() : fitted.fluid_count[0];
+    CellPoints points;
+    points.point.assign(fitted.fluid.begin(), fitted.fluid.begin() + std::ptrdiff_t(count));
+    points.spacing.assign(count, spacing);
+    return points;
+}
+
+std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen& lumen, const CellPoints& points) {
+    auto scene = std::make_unique<CellScene>(
+        CellScene{config, lumen, make_cell_mesh(points.point, points.spacing, lumen), {}, 0, {}, {}});
+    tune_outlets(scene->config, lumen.openings);
+    std::vector<EndLaw> laws;
+    for (const Opening& opening : lumen.openings) {
+        const deck::Opening& said = scene->config.openings.at(opening.name);
+        laws.push_back(make_end_law(opening, said, scene->config));
+        scene->ends.push_back(make_end(opening, said, laws.back(), config.blood));
+    }
+    scene->reference_speed = estimate_expected(scene->config, lumen, laws, make_material(config.blood)).speed;
+    const CellFluid fluid{config.blood.density, make_rheology(config.blood), config.wall.slip == deck::Slip::free_slip};
+    scene->balance = std::make_unique<CellBalance>(scene->mesh, fluid, scene->ends, scene->reference_speed);
+    return scene;
+}
+
+void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings) {
+    CellSolverSettings own = settings;
+    if (coarser) {
+        scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
+        own.first_courant = first_courant;
+    }
+    CellMatrix matrix(scene.mesh);
+    scene.solution = solve_steady(*scene.balance, matrix, own);
+}
+
+std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
+                                             const std::function<bool(const CellScene&)>& watch) {
+    const Lumen lumen = make_cell_lumen(config);
+    const double spacing = config.numerics.spacing;
+    const auto solved = [&](double dp, const CellScene* coarser, double tolerance) {
+        auto scene = make_cell_scene(config, lumen, make_cell_points(lumen, dp));
+        CellSolverSettings settings{.tolerance = tolerance};
+        if (watch) settings.interrupted = [&] { return watch(*scene); };
+        solve_scene(*scene, coarser, settings);
+        return scene;
+    };
+    std::unique_ptr<CellScene> coarse;
+    if (lumen.narrowest > fewest_across * coarsening * spacing) {
+        coarse = solved(coarsening * spacing, nullptr, coarse_tolerance);
+        if (!coarse->solution.is_converged) return coarse;   // interrupted
+    }
+    return solved(spacing, coarse.get(), CellSolverSettings{}.tolerance);
+}
+
+}   // namespace patency

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A steady flow of a deck on cells: from the lumen to points, cells, openings and the balanced fields. Writes no files
+// (cell_flow.h).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "patency/config/case.h"
+#include "patency/schemes/cell_solver.h"
+#include "patency/shape/lumen.h"
+
+namespace patency {
+
+/// Points in a lumen, and the spacing of each.
+struct CellPoints {
+    std::vector<Vec3> point;       ///< [m]
+    std::vector<double> spacing;   ///< [m]
+};
+
+struct CellScene {
+    deck::Case config;   ///< with the outlets' resistances tuned
+    Lumen lumen;
+    CellMesh mesh;
+    std::vector<CellEnd> ends;              ///< as lumen.openings
+    double reference_speed;                 ///< [m/s]
+    std::unique_ptr<CellBalance> balance;   ///< refers to the mesh
+    CellSolution solution;
+};
+
+/// The lumen of a deck. Throws DeckError for what a steady flow on cells cannot be: pulses, walls that move, a body force.
+Lumen make_cell_lumen(const deck::Case& config);
+
+/// Relaxed points, `spacing` [m] apart, behind the openings.
+CellPoints make_cell_points(const Lumen& lumen, double spacing);
+
+/// Everything but the flow, which rests.
+std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen& lumen, const CellPoints& points);
+
+/// Solves the flow, from that of a coarser scene if one is given. Throws DivergedError.
+void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings);
+
+/// The scene of a deck with its flow: a coarse one first, which costs little and is a good start. `watch` is called with
+/// every scene before and after every step of its solution; true ends the run.
+std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
+                                             const std::function<bool(const CellScene&)>& watch = {});
+
+}   // namespace patency

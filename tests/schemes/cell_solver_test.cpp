@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/schemes/cell_solver.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "patency/base/errors.h"
+#include "patency/schemes/cell_krylov.h"
+#include "tests/cells/point_sets.h"
+
+namespace patency {
+namespace {
+
+using testing_cells::PointSet;
+using testing_cells::shaken_lattice;
+
+constexpr double pi = std::numbers::pi, density = 1060, mu = 3.5e-3;
+const CellFluid blood{.density = density, .rheology = Newtonian{mu}};
+
+CellMesh mesh_of(const Lumen& lumen, double spacing, double shake) {
+    const PointSet set = shaken_lattice(lumen, spacing, shake);
+    return make_cell_mesh(set.point, set.spacing, lumen);
+}
+
+CellFields still(const CellMesh& mesh) { return {std::vector<double>(mesh.size()), std::vector<Vec3>(mesh.size())}; }
+
+/// A pipe of 4 mm: the parabola of mean speed U in, a pressure or a resistance behind the outlet.
+struct Pipe {
+    double radius = 2e-3, length = 8e-3, speed = 0.02, spacing;
+    Lumen lumen = make_tube({.length = length, .radius = radius});
+    CellMesh mesh;
+    CellEnd inlet, outlet;
+
+    explicit Pipe(double across, double shake = 0.2)
+        : spacing(2 * radius / across), mesh(mesh_of(lumen, spacing, shake)) {
+        inlet = {.kind = CellEnd::Kind::velocity,
+                 .velocity =
+                     [this](const Vec3& x) {
+                         return Vec3{2 * speed * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0};
+                     },
+                 .flow = -flow()};
+    }
+    Pipe(const Pipe&) = delete;
+    double flow() const { return pi * radius * radius * speed; }
+    double slope() const { return 8 * mu * speed / (radius * radius); }   // Pa/m
+    double stress() const { return 4 * mu * speed / radius; }
+
+    CellBalance balance(const CellFluid& fluid = blood) const {
+        return CellBalance(mesh, fluid, std::vector{inlet, outlet}, 2 * speed);
+    }
+};
+
+CellSolution solve(CellBalance& balance, const CellMesh& mesh, CellSolverSettings settings = {}) {
+    CellMatrix matrix(mesh);
+    return solve_steady(balance, matrix, settings);
+}
+
+// Between walls that slip, on disordered cells: no cell lacks anything.
+TEST(CellBalance, isKeptByAUniformStream) {
+    const Lumen box = make_box({.size = {1e-2, 6e-3, 5e-3}, .sides = {Side::open, Side::wall, Side::wall}});
+    const CellMesh mesh = mesh_of(box, 8e-4, 0.3);
+    const Vec3 stream{0.3, 0, 0};
+    CellFluid slippery = blood;
+    slippery.free_slip = true;
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity,
+                        .velocity = [&](const Vec3&) { return stream; },
+                        .flow = -0.3 * box.openings[0].area};
+    CellBalance balance(mesh, slippery, std::vector{inlet, CellEnd{.pressure = 70}}, 0.3);
+    balance.set_fields({std::vector<double>(mesh.size(), 70), std::vector<Vec3>(mesh.size(), stream)});
+    balance.compute_residual(0.5);
+    EXPECT_LT(balance.volume_residual(), 1e-12);
+    EXPECT_LT(balance.momentum_residual(), 1e-12);
+    for (const CellEndState& end : balance.end_states()) EXPECT_NEAR(end.pressure, 70, 1e-9);
+}
+
+// Every flux leaves one cell and enters another: what the cells lack is what the openings bring, whatever the fields.
+TEST(CellBalance, losesNothingBetweenCells) {
+    const Pipe pipe(8);
+    CellBalance balance = pipe.balance();
+    CellFields fields = still(pipe.mesh);
+    for (std::size_t i = 0; i < pipe.mesh.size(); ++i) {
+        const Vec3& x = pipe.mesh.point[i];
+        fields.pressure[i] = 3 * std::sin(900 * x.x + 500 * x.y);
+        fields.velocity[i] = 0.02 * Vec3{std::cos(700 * x.y), std::sin(600 * x.z), std::sin(800 * x.x)};
+    }
+    balance.set_fields(fields);
+    balance.compute_residual(0.5);
+    CellMatrix matrix(pipe.mesh);
+    CellVectors right;
+    balance.fill({1}, matrix, right);
+    double lack = 0, flow = 0;
+    for (const CellVector& r : right) lack -= double(r[0]);
+    for (const CellEndState& end : balance.end_states()) flow += end.flow / (2 * pipe.speed);
+    EXPECT_NEAR(lack, flow, 1e-6 * pipe.flow() / pipe.speed) << "to the single precision of the right side";
+}
+
+TEST(CellSolver, findsPoiseuilleAtSecondOrder) {
+    double error[2];
+    for (const int k : {0, 1}) {
+        const Pipe pipe(k == 0 ? 8 : 16);
+        CellBalance balance = pipe.balance();
+        EXPECT_TRUE(solve(balance, pipe.mesh).is_converged);
+        const CellFields found = balance.fields();
+        double squares = 0, volume = 0;
+        for (std::size_t i = 0; i < pipe.mesh.size(); ++i) {
+            const Vec3 e = found.velocity[i] - pipe.inlet.velocity(pipe.mesh.point[i]);
+            squares += pipe.mesh.volume[i] * dot(e, e);
+            volume += pipe.mesh.volume[i];
+        }
+        error[k] = std::sqrt(squares / volume) / (2 * pipe.speed);
+        const auto ends = balance.end_states();
+        EXPECT_NEAR(ends[0].pressure / (pipe.slope() * pipe.length), 1, k == 0 ? 0.04 : 0.01);
+        const auto stress = balance.wall_shear_stress();
+        double sum = 0, area = 0;
+        for (std::size_t p = 0; p < stress.size(); ++p)
+            if (pipe.mesh.patches[p].opening == CellPatch::wall)
+                sum += norm(pipe.mesh.patches[p].area) * stress[p].x, area += norm(pipe.mesh.patches[p].area);
+        EXPECT_NEAR(sum / area / pipe.stress(), 1, k == 0 ? 0.04 : 0.01);
+    }
+    EXPECT_LT(error[0], 0.02) << "a lattice that the wall cuts, eight cells across";
+    EXPECT_GT(std::log2(error[0] / error[1]), 1.8);
+}
+
+// What goes in comes out, and the walls take what the pressure gives.
+TEST(CellSolver, balancesVolumeAndMomentum) {
+    const Pipe pipe(10);
+    CellBalance balance = pipe.balance();
+    solve(balance, pipe.mesh);
+    const auto ends = balance.end_states();
+    EXPECT_NEAR(ends[0].flow, -pipe.flow(), 1e-14 * pipe.flow());
+    EXPECT_NEAR(ends[0].flow + ends[1].flow, 0, 1e-6 * pipe.flow());
+    const auto stress = balance.wall_shear_stress();
+    double drag = 0;
+    for (std::size_t p = 0; p < stress.size(); ++p) drag += norm(pipe.mesh.patches[p].area) * stress[p].x;
+    const double push = (ends[0].pressure - ends[1].pressure) * pipe.lumen.openings[0].area;
+    EXPECT_NEAR(drag / push, 1, 0.01) << "the parabola keeps its momentum";
+}
+
+TEST(CellSolver, comesNearerStepByStepAtTheEnd) {
+    const Pipe pipe(10);
+    CellBalance balance = pipe.balance();
+    const CellSolution solution = solve(balance, pipe.mesh);
+    const auto& history = solution.history;
+    ASSERT_GT(history.size(), 15u);
+    for (std::size_t k = history.size() - 8; k < history.size(); ++k) {
+        EXPECT_LT(history[k].volume_residual, history[k - 1].volume_residual);
+        EXPECT_LT(history[k].momentum_residual, history[k - 1].momentum_residual);
+    }
+}
+
+TEST(CellSolver, carriesALevelOfAllPressuresAlong) {
+    Pipe pipe(8);
+    pipe.speed = 0.1;
+    pipe.outlet.resistance = 1e7;
+    pipe.inlet.flow = -pipe.flow();
+    CellBalance low = pipe.balance();
+    pipe.outlet.pressure = 13332;   // 100 mmHg
+    CellBalance high = pipe.balance();
+    high.set_fields({std::vector<double>(pipe.mesh.size(), 13332), std::vector<Vec3>(pipe.mesh.size())});
+    solve(low, pipe.mesh), solve(high, pipe.mesh);
+    const CellFields a = low.fields(), b = high.fields();
+    for (std::size_t i = 0; i < pipe.mesh.size(); ++i) {
+        ASSERT_LT(norm(a.velocity[i] - b.velocity[i]), 1e-9 * pipe.speed);
+        ASSERT_NEAR(b.pressure[i] - a.pressure[i], 13332, 1e-6);
+    }
+}
+
+TEST(CellSolver, givesOutletsWhatTheirModelsAsk) {
+    Pipe pipe(8);
+    pipe.outlet = {.kind = CellEnd::Kind::pressure, .pressure = 5, .resistance = 2e8};
+    CellBalance balance = pipe.balance();
+    solve(balance, pipe.mesh);
+    const CellEndState out = balance.end_states()[1];
+    EXPECT_NEAR(out.pressure, 5 + 2e8 * out.flow, 1e-9 * out.pressure);
+
+    // The same flow the other way about: drawn out of the outlet, with an even pressure at the inlet.
+    Pipe drawn(8);
+    drawn.inlet = {.kind = CellEnd::Kind::pressure, .velocity = drawn.inlet.velocity, .pressure = 20};
+    drawn.outlet = {.kind = CellEnd::Kind::flow, .flow = drawn.flow()};
+    CellBalance other = drawn.balance();
+    solve(other, drawn.mesh);
+    EXPECT_NEAR(other.end_states()[1].flow, drawn.flow(), 1e-12 * drawn.flow());
+    EXPECT_NEAR(other.end_states()[0].flow, -drawn.flow(), 1e-6 * drawn.flow());
+    EXPECT_NEAR((20 - other.end_states()[1].pressure) / (drawn.slope() * drawn.length), 1, 0.04);
+}
+
+// Between plates of y = +-b a power law's profile is flatter: u = (2n + 1)/(n + 1) U (1 - (y/b)^(1 + 1/n)).
+TEST(CellSolver, findsTheProfileOfAPowerLawInASlab) {
+    const double gap = 2e-3, n = 0.708, speed = 0.05, consistency = 0.017;
+    const Lumen channel = make_channel({.length = 4e-3, .gap = gap});
+    const CellMesh mesh = mesh_of(channel, gap / 24, 0);
+    const auto profile = [&](double y) {
+        const double s = std::abs(2 * y / gap - 1);
+        return (2 * n + 1) / (n + 1) * speed * (1 - std::pow(s, 1 + 1 / n));
+    };
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity,
+                        .velocity =
+                            [&](const Vec3& x) {
+                                return Vec3{profile(x.y), 0, 0};
+                            },
+                        .flow = -speed * gap};
+    const CellFluid thinning{.density = density, .rheology = PowerLaw{consistency, n, 1e-4, 1}};
+    CellBalance balance(mesh, thinning, std::vector{inlet, CellEnd{}}, speed);
+    solve(balance, mesh);
+    const CellFields found = balance.fields();
+    for (std::size_t i = 0; i < mesh.size(); ++i)
+        if (std::abs(mesh.point[i].x - 2e-3) < 5e-4) {
+            ASSERT_NEAR(found.velocity[i].x, profile(mesh.point[i].y), 0.015 * speed);
+        }
+    // tau_w = K g_w^n with g_w = (2n + 1)/n 2 U / gap.
+    const double stress = consistency * std::pow((2 * n + 1) / n * 2 * speed / gap, n);
+    const auto found_stress = balance.wall_shear_stress();
+    for (std::size_t k = 0; k < found_stress.size(); ++k)
+        if (mesh.patches[k].opening == CellPatch::wall && std::abs(mesh.patches[k].centroid.x - 2e-3) < 5e-4) {
+            ASSERT_NEAR(found_stress[k].x, stress, 0.02 * stress);
+        }
+    EXPECT_NEAR(balance.end_states()[0].flow, -speed * gap, 1e-12 * speed * gap) << "per metre of depth";
+}
+
+TEST(CellSolver, isTheSameForAnyNumberOfThreads) {
+    const Pipe pipe(12);   // several runs of rows
+    const int threads = omp_get_max_threads();
+    std::vector<CellFields> found;
+    for (const int n : {1, 2, 4}) {
+        omp_set_num_threads(n);
+        CellBalance balance = pipe.balance();
+        solve(balance, pipe.mesh, {.tolerance = 0.1});
+        found.push_back(balance.fields());
+    }
+    omp_set_num_threads(threads);
+    EXPECT_EQ(found[0].pressure, found[1].pressure);
+    EXPECT_EQ(found[0].velocity, found[1].velocity);
+    EXPECT_EQ(found[0].pressure, found[2].pressure);
+    EXPECT_EQ(found[0].velocity, found[2].velocity);
+}
+
+TEST(CellSolver, saysWhenItDoesNotConverge) {
+    const Pipe pipe(8);
+    CellBalance balance = pipe.balance();
+    EXPECT_THROW(solve(balance, pipe.mesh, {.most_iterations = 3}), DivergedError);
+    CellFields broken = still(pipe.mesh);
+    broken.pressure[7] = NAN;
+    balance.set_fields(broken);
+    EXPECT_THROW(solve(balance, pipe.mesh), DivergedError);
+    EXPECT_THROW(CellBalance(pipe.mesh, blood, std::vector{pipe.inlet, pipe.inlet}, 1), DeckError) << "no level";
+}
+
+// A coarse flow's gradients carry it over to finer cells.
+TEST(CellSolver, startsNearerFromACoarserFlow) {
+    const Pipe coarse(8), fine(14);
+    CellBalance rough = coarse.balance();
+    solve(rough, coarse.mesh);
+    CellBalance from_rest = fine.balance(), from_coarse = fine.balance();
+    from_coarse.set_fields(rough.fields_at(fine.mesh.point));
+    from_rest.compute_residual(0.5), from_coarse.compute_residual(0.5);
+    const auto slow = solve(from_rest, fine.mesh), quick = solve(from_coarse, fine.mesh, {.first_courant = 20});
+    EXPECT_LT(quick.linear_steps, 0.9 * slow.linear_steps);
+}
+
+TEST(CellKrylov, solvesWhatItIsGiven) {
+    // A lower triangle with a diagonal that grows, preconditioned by the diagonal.
+    const std::size_t count = 40;
+    const CellOperator multiply = [](const CellVectors& x, CellVectors& y) {
+        for (std::size_t i = 0; i < x.size(); ++i) y[i] = float(i + 1) * x[i] + (i > 0 ? x[i - 1] : CellVector{});
+    };
+    const CellOperator divide = [](const CellVectors& x, CellVectors& y) {
+        for (std::size_t i = 0; i < x.size(); ++i) y[i] = x[i] / float(i + 1);
+    };
+    CellVectors wanted(count), right(count), found;
+    for (std::size_t i = 0; i < count; ++i) wanted[i] = CellVector{float(i), 1, -2, 0.5f * float(i)};
+    multiply(wanted, right);
+    const KrylovResult result = solve_by_krylov(multiply, divide, right, found, 60, 1e-6);
+    EXPECT_LT(result.residual, 1e-6);
+    for (std::size_t i = 0; i < count; ++i)
+        for (int k = 0; k < 4; ++k) ASSERT_NEAR(found[i][k], wanted[i][k], 2e-3f);
+}
+
+}   // namespace
+}   // namespace patency

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a deck to a steady flow on cells and its summary.
+#include "patency/stages/cell_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/stages/cell_flow.h"
+
+namespace patency {
+namespace {
+
+constexpr double radius = 1e-3, length = 6e-3, speed = 0.05, mu = 3.5e-3;
+constexpr double flow = std::numbers::pi * radius * radius * speed;
+
+deck::Case tube(const std::string& openings, const std::string& more = "", const std::string& scheme = "cells") {
+    return deck::parse_case(R"(version: 1
+case: {name: tube}
+geometry: {shape: {type: tube, diameter: "2 mm", length: "6 mm", axis: [1, 2, -0.5]}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings: {)" + openings + R"(}
+numerics: {scheme: )" + scheme +
+                            R"(, spacing: "0.2 mm", duration: "1 s"}
+)" + more);
+}
+const std::string inflow = R"(inlet: {type: velocity, profile: parabola, velocity: "0.05 m/s"})";
+
+TEST(CellScene, flowsAsTheDeckSays) {
+    const auto scene = make_solved_scene(
+        tube(inflow + R"(, outlet: {type: resistance, resistance: "2e8 Pa s/m^3", distal_pressure: "10 Pa"})"));
+    ASSERT_TRUE(scene->solution.is_converged);
+    const nlohmann::ordered_json summary = make_cell_summary(*scene);
+    EXPECT_EQ(summary["scheme"], "cells");
+    const auto& inlet = summary["openings"]["inlet"];
+    const auto& outlet = summary["openings"]["outlet"];
+    EXPECT_NEAR(inlet["flow_m3_per_s"], -flow, 1e-12 * flow);
+    EXPECT_NEAR(outlet["flow_m3_per_s"], flow, 1e-6 * flow);
+    EXPECT_NEAR(outlet["mean_pressure_pa"], 10 + 2e8 * flow, 1e-5);
+    EXPECT_NEAR(outlet["resistance_pa_s_per_m3"], 2e8, 1);
+    const double drop = 8 * mu * speed * length / (radius * radius);
+    EXPECT_NEAR((double(inlet["mean_pressure_pa"]) - double(outlet["mean_pressure_pa"])) / drop, 1, 0.02);
+    EXPECT_LT(summary["mass_imbalance_percent"], 1e-4);
+    EXPECT_NEAR(double(summary["largest_speed_m_per_s"]) / (2 * speed), 1, 0.03);
+}
+
+// What leaves by a prescribed flow finds its own profile; what enters by a pressure is a developed one.
+TEST(CellScene, isDrawnThroughAsItIsDrivenThrough) {
+    const auto scene = make_solved_scene(
+        tube(R"(inlet: {type: pressure, pressure: "50 Pa"}, outlet: {type: flow, flow: "-9.42477796 mL/min"})"));
+    const auto ends = scene->balance->end_states();
+    EXPECT_NEAR(ends[1].flow, flow, 1e-6 * flow);
+    EXPECT_NEAR(ends[0].flow, -flow, 1e-6 * flow);
+    EXPECT_NEAR((50 - ends[1].pressure) / (8 * mu * speed * length / (radius * radius)), 1, 0.02);
+}
+
+TEST(CellScene, takesAWindkesselForItsResistances) {
+    const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: rcr, proximal_resistance: "1e8 Pa s/m^3",
+  distal_resistance: "3e8 Pa s/m^3", compliance: "1e-10 m^3/Pa", distal_pressure: "7 Pa"})"));
+    EXPECT_NEAR(scene->balance->end_states()[1].pressure, 7 + 4e8 * flow, 1e-4);
+}
+
+TEST(CellScene, refusesWhatIsNotSteady) {
+    const std::string out = R"(, outlet: {type: pressure, pressure: "0 Pa"})";
+    EXPECT_NO_THROW(make_cell_lumen(tube(inflow + out)));
+    EXPECT_THROW(make_cell_lumen(tube(inflow + out, "body_force: [\"1 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\n")),
+                 DeckError);
+    const std::string wave =
+        R"(inlet: {type: velocity, waveform: {times: ["0 s", "1 s"], values: ["0.1 m/s", "0.1 m/s"], period: "1 s"}})";
+    EXPECT_THROW(make_cell_lumen(tube(wave + out)), DeckError);
+}
+
+TEST(CellScene, stopsWhenItIsAskedTo) {
+    int asked = 0;
+    const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: pressure, pressure: "0 Pa"})"),
+                                         [&](const CellScene&) { return ++asked == 3; });
+    EXPECT_FALSE(scene->solution.is_converged);
+    EXPECT_EQ(asked, 3);
+}
+
+}   // namespace
+}   // namespace patency
