@@ -75,7 +75,9 @@ TEST(Expected, AThroatBetweenTheOpeningsIsTheNarrowestAndTheFastest) {
     EXPECT_NEAR(wide->lumen.narrowest, 2 * radius, 0.02 * radius);
     EXPECT_NEAR(narrow->lumen.narrowest, (1 - stenosis) * 2 * radius, 0.02 * radius);
     EXPECT_NEAR(wide->numerics.reference_speed, 2 * 2e-6 / area, 0.01 * 2 * 2e-6 / area);
-    EXPECT_NEAR(narrow->numerics.reference_speed / wide->numerics.reference_speed, 4, 0.06);   // continuity
+    // Continuity: between a jet with a flat profile and a parabola, four times the mean.
+    EXPECT_GT(narrow->numerics.reference_speed / wide->numerics.reference_speed, 2);
+    EXPECT_LT(narrow->numerics.reference_speed / wide->numerics.reference_speed, 4);
     EXPECT_NEAR(narrow->material.sound_speed, 10 * narrow->numerics.reference_speed, 1e-9);
 }
 
@@ -85,23 +87,25 @@ TEST(Expected, ABedThrottlesWhatThePressureWouldDrive) {
     EXPECT_NEAR(wide->numerics.reference_speed, speed, 0.02 * speed);
     EXPECT_NEAR(wide->material.sound_speed, 10 * speed, 0.2 * speed);   // not that of 88 mmHg, 33 m/s
     const auto narrow = frame(throat(), before_a_bed, with_a_bed);
-    EXPECT_NEAR(narrow->numerics.reference_speed, 4 * speed, 0.1 * speed);
+    EXPECT_LT(narrow->numerics.reference_speed, 4 * speed);
+    EXPECT_GT(narrow->numerics.reference_speed, 2 * speed);
 }
 
 TEST(Expected, NoThroatIsFasterThanThePressureBears) {
     const Vessel severe = followed(make_stenosed_tube(radius, length, 0.85));
     const double bernoulli = std::sqrt(2 * (93 - 5) * 133.322387415 / rho);
     const double fastest = frame(severe, before_a_bed, with_a_bed)->numerics.reference_speed;
-    EXPECT_LE(fastest, bernoulli * (1 + 1e-12));
+    EXPECT_LE(fastest, 1.02 * bernoulli);   // what it brings from the inlet comes on top
     EXPECT_GT(fastest, 0.5 * bernoulli);
 }
 
-TEST(Expected, WithoutABedItIsPoiseuilles) {
+TEST(Expected, WithoutABedItIsPoiseuillesLessTheEntrance) {
     constexpr double drop = 20;
     const auto scene =
         frame(tube(), "{inlet: {type: pressure, pressure: \"20 Pa\"}, outlet_1: {type: pressure, pressure: \"0 Pa\"}}");
     const double peak = drop / length * radius * radius / (4 * mu);
-    EXPECT_NEAR(scene->numerics.reference_speed, peak, 0.02 * peak);
+    EXPECT_LT(scene->numerics.reference_speed, peak);
+    EXPECT_GT(scene->numerics.reference_speed, 0.85 * peak);
 }
 
 }   // namespace

@@ -12,6 +12,7 @@ namespace patency {
 EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
     const VesselAlong& along = *vessel.along;
     lowest_ = highest_ = estimate.flow.inlet_pressure;
+    const double rho = estimate.tree.blood.density, at_inlet = 2 * estimate.flow.flow[0] / estimate.tree.branches[0].area[0];
     for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
         const Branch& branch = along.lines.branches[b];
         const TreeBranch& tree = estimate.tree.branches[b];
@@ -24,7 +25,9 @@ EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
             const double mean = estimate.flow.flow[b] / tree.area[k];
             const double slope = (pressure[after] - pressure[before]) / (tree.arc[after] - tree.arc[before]);
             stations_.push_back({b, p.place, p.tangent, p.radius, mean, pressure[k], slope});
-            largest_speed_ = std::max(largest_speed_, 2 * std::abs(mean));
+            // No streamline gains more than its pressure loses (Bernoulli): a jet's profile is flatter than a parabola.
+            const double bernoulli = std::sqrt(at_inlet * at_inlet + 2 * std::max(0.0, estimate.flow.inlet_pressure - pressure[k]) / rho);
+            largest_speed_ = std::max(largest_speed_, std::min(2 * std::abs(mean), bernoulli));
             lowest_ = std::min(lowest_, pressure[k]), highest_ = std::max(highest_, pressure[k]);
         }
     }

@@ -194,6 +194,7 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     plan.settling = settling_of(plan.estimate, blood.kinematic_viscosity());
 
     // Started from the estimate it is steady sooner, as a rule, and then ends: this is the longest.
+    plan.config.initial = {.velocity = deck::InitialVelocity::estimate, .speed = {}, .pressure = deck::InitialPressure::estimate};
     plan.config.numerics.convergence.emplace();
     plan.config.numerics.duration = written(plan.settling, "s", 2, true);
     const auto scene = coarsest_frame(plan.config, vessel);

@@ -54,6 +54,13 @@ std::vector<Section> read_sections(const std::filesystem::path& reference) {
     return sections;
 }
 
+/// None where the file is not there: then no run was measured either.
+std::vector<Section> known_sections(const Results& results) {
+    for (const char* run : {"d20", "d30", "d40"})
+        if (results.has(run)) return read_sections(results.reference());
+    return {};
+}
+
 /// Places where rays from the middle of a section meet its wall, and how much of the outline each stands for.
 struct Ring {
     WallPlaces places;
@@ -192,7 +199,7 @@ double combined_error(const RunData& data, const std::vector<Section>& sections)
 }
 
 void bifurcation_figures(const Results& results, FigureList& figures) {
-    const auto sections = read_sections(results.reference());
+    const auto sections = known_sections(results);
     const auto at = [&](double arc) { return section_at(sections, stenosed, arc); };
     const auto drop = [&](const RunData& data) { return data.list("pressure")[at(proximal_arc)] - data.list("pressure")[at(distal_arc)]; };
     for (const auto& [run, suffix, judged] : {std::tuple{"d20", "", true}, {"d30", "_d30", false}, {"d40", "_d40", false}}) {
@@ -265,7 +272,8 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
 }
 
 std::vector<Picture> bifurcation_pictures(const Results& results) {
-    const auto sections = read_sections(results.reference());
+    const auto sections = known_sections(results);
+    if (sections.empty()) return {};
     std::vector<Curve> pressure, shear;
     const auto curve = [&](const std::string& title, bool is_line, auto value) {
         Curve c{title, {}, {}, is_line};
