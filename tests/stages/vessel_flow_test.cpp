@@ -281,6 +281,21 @@ TEST(RunFlow, AVesselThatIsInterruptedGoesOnToTheSameBytes) {
     for (const std::string& name : names) EXPECT_EQ(text_of(folder.path / "out" / name), whole[name]) << name;
 }
 
+TEST(RunFlow, CellsTellAVesselsFlowLikeParticles) {
+    Folder folder;
+    deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"1 s\", scheme: cells");
+    config.aorta.pressure = 12400;
+    EXPECT_EQ(run_flow(config, {.folder = OutputFolder(folder.path / "out")}), Outcome::done);
+    const auto summary = nlohmann::json::parse(text_of(folder.path / "out/summary.json"));
+    EXPECT_EQ(summary["scheme"], "cells");
+    EXPECT_NEAR(summary["branches"][0]["flow_m3_per_s"].get<double>(), 1e-6, 0.03e-6);
+    const auto& lesion = summary["lesions"][0];
+    EXPECT_NEAR(lesion["drop_pa"].get<double>() / lesion["estimated_drop_pa"].get<double>(), 1, 0.25);
+    EXPECT_LT(summary["ffr"]["lesion"].get<double>(), 1);
+    EXPECT_GT(summary["ffr"]["lesion"].get<double>(), 0.98);   // 60 mL/min through 40 % of 3 mm are no limit
+    for (const char* name : {"wall.vtp", "cut.vtp", "streamlines.vtp", "pullback.csv"}) EXPECT_TRUE(fs::exists(folder.path / "out" / name)) << name;
+}
+
 TEST(RunFlow, AnotherVesselUnderTheSameNameIsRefused) {
     Folder folder;
     const deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"1 ms\"");

@@ -16,6 +16,7 @@
 #include "patency/io/pvd.h"
 #include "patency/io/summary.h"
 #include "patency/io/vtp.h"
+#include "patency/stages/cell_vessel.h"
 #include "patency/stages/stopwatch.h"
 
 namespace patency {
@@ -96,10 +97,10 @@ Json make_cell_summary(const CellScene& scene) {
     }
     summary["openings"] = openings;
     summary["gauge_pressure_ratio"] =
-        nullptr;   // of the pressures on both sides of a lesion, which decks cannot mark yet
+        nullptr;   // of a vessel with a lesion only (vessel_results.h)
     summary["ffr"] = {
         {"lesion", nullptr},
-        {"reason", config.aorta.pressure ? "no lesion is marked in the deck" : "the deck gives no aortic pressure"}};
+        {"reason", config.aorta.pressure ? "a shape has no lesions" : "the deck gives no aortic pressure"}};
     summary["mass_imbalance_percent"] = through > 0 ? 100 * std::abs(out) / through : 0;
     const CellFields fields = scene.balance->fields();
     const auto mean = [&](auto value) {
@@ -161,7 +162,9 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
     if (stage.progress) stage.progress->finish(progress_of(*scene));
     write_cells(stage.folder, *scene);
     write_wall(stage.folder, *scene);
-    write_summary(stage.folder.file("summary.json"), make_cell_summary(*scene));
+    Json summary = make_cell_summary(*scene);
+    if (config.has_vessel()) add_vessel_results(summary, *scene, stage.folder);
+    write_summary(stage.folder.file("summary.json"), summary);
     write_summary(stage.folder.file("timing.json"),
                   {{"build", {{"cpu_s", build_cpu}, {"wall_s", build_wall}}},   // the coarse solution included
                    {"flow", {{"cpu_s", watch.cpu() - build_cpu}, {"wall_s", watch.wall() - build_wall}}},

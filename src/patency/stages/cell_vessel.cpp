@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/cell_vessel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "patency/stages/material.h"
+#include "patency/stages/scene_sampling.h"
+#include "patency/stages/vessel_results.h"
+
+namespace patency {
+
+std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
+    auto scene = std::make_unique<Scene>();
+    scene->config = cells.config;
+    scene->lumen = cells.lumen;
+    scene->vessel = read_vessel(cells.config);
+    scene->estimate = estimate_flow(cells.config, *scene->vessel);
+    scene->material = make_material(cells.config.blood);
+    scene->numerics.spacing = cells.config.numerics.spacing;
+    scene->numerics.reference_speed = cells.reference_speed;
+    const Bounds box = grown(cells.lumen.bounds, 2 * sampling_reach(*scene));
+    scene->frame = std::make_unique<Frame>(box.low, box.high, sampling_reach(*scene));
+
+    const CellFields fields = cells.balance->fields();
+    scene->fluid.resize(cells.mesh.size());
+    for (std::size_t i = 0; i < cells.mesh.size(); ++i) {
+        scene->fluid.position[i] = cells.mesh.point[i];
+        scene->fluid.velocity[i] = fields.velocity[i];
+        scene->fluid.pressure[i] = fields.pressure[i];
+        scene->fluid.volume[i] = cells.mesh.volume[i];
+    }
+    std::vector<const CellPatch*> wall;
+    for (const CellPatch& patch : cells.mesh.patches)
+        if (patch.opening == CellPatch::wall) wall.push_back(&patch);
+    scene->wall.resize(wall.size());
+    for (std::size_t k = 0; k < wall.size(); ++k) {
+        scene->wall.position[k] = wall[k]->centroid;
+        scene->wall.normal[k] = wall[k]->normal;
+        scene->wall.depth[k] = 0;
+    }
+    return scene;
+}
+
+void add_vessel_results(nlohmann::ordered_json& summary, const CellScene& cells, const OutputFolder& folder) {
+    const auto scene = scene_of_cells(cells);
+    VesselRecorder recorder(*scene);
+    recorder.sample(*scene);
+    const auto ends = cells.balance->end_states();
+    const std::string& inlet = scene->vessel->openings.front().opening.name;
+    double at_inlet = 0, lowest = INFINITY;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        if (cells.lumen.openings[k].name == inlet) at_inlet = ends[k].pressure;
+        else lowest = std::min(lowest, ends[k].pressure);
+    }
+    const VesselFlow flow = evaluate_vessel(*scene, recorder, at_inlet, lowest);
+    add_vessel_summary(summary, *scene, recorder, flow);
+    write_vessel_files(folder, *scene, recorder, flow);
+}
+
+}   // namespace patency
