@@ -19,6 +19,7 @@
 #include "patency/stages/run_flow.h"
 #include "patency/stages/scene_state.h"
 #include "tests/stages/decks.h"
+#include "tests/stages/results_folder.h"
 
 namespace patency {
 namespace {
@@ -38,19 +39,6 @@ void copy_particles(const ParticleSet& from, ParticleSet& to) {
         std::copy(bytes.begin(), bytes.end(), to.fields()[f]->bytes().begin());
     }
 }
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-struct Folder {
-    fs::path path = fs::temp_directory_path() / fmt::format("patency_results_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    Folder() { fs::remove_all(path); }
-    ~Folder() { fs::remove_all(path); }
-};
 
 TEST(SceneState, a_restored_scene_goes_on_with_the_same_bits) {
     ChannelDeck deck;

@@ -22,6 +22,7 @@
 #include "patency/stages/scene_sampling.h"
 #include "patency/stages/vessel_results.h"
 #include "tests/stages/decks.h"
+#include "tests/stages/results_folder.h"
 
 namespace patency {
 namespace {
@@ -58,19 +59,6 @@ const Scene& scene() {
     static const auto made = build_scene(bifurcation());
     return *made;
 }
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-struct Folder {
-    fs::path path = fs::temp_directory_path() / fmt::format("patency_vessel_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    Folder() { fs::remove_all(path); }
-    ~Folder() { fs::remove_all(path); }
-};
 
 TEST(EstimatedField, CarriesTheEstimatesFlowThroughEverySection) {
     const EstimatedField field(*scene().vessel, *scene().estimate);

@@ -17,6 +17,7 @@
 #include "patency/io/summary.h"
 #include "patency/io/vtp.h"
 #include "patency/stages/cell_vessel.h"
+#include "patency/stages/flow_means.h"
 #include "patency/stages/stopwatch.h"
 
 namespace patency {
@@ -61,13 +62,6 @@ void write_wall(const OutputFolder& folder, const CellScene& scene) {
     const auto file = frame_file("wall", 0);
     write_polydata(folder.file(file.string()), data);
     PvdWriter(folder.file("wall.pvd")).add(0, file);
-}
-
-void expect_finite(const Json& json, const std::string& path) {
-    if (json.is_object())
-        for (const auto& [key, value] : json.items()) expect_finite(value, path.empty() ? key : path + "." + key);
-    else if (json.is_number_float() && !std::isfinite(json.get<double>()))
-        throw DivergedError(fmt::format("{} is not a finite number: the flow diverged", path));
 }
 
 }   // namespace

@@ -16,14 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+}  // namespace
+
 void expect_finite(const Json& json, const std::string& path) {
     if (json.is_structured())
         for (const auto& [key, value] : json.items()) expect_finite(value, path.empty() ? key : path + "." + key);
     else if (json.is_number_float() && !std::isfinite(json.get<double>()))
         throw DivergedError(fmt::format("{} is not a finite number: the flow diverged", path));
 }
-
-}  // namespace
 
 FlowMark mark_flow(const Scene& scene) {
     FlowMark mark;

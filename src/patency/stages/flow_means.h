@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "patency/stages/scene.h"
@@ -37,6 +38,9 @@ double mass_imbalance_percent(const FlowMark& from, const FlowMark& to);
 /// The numbers of a flow's part of summary.json: a function of the scene and the mark only. Throws DivergedError where
 /// a number is not finite.
 nlohmann::ordered_json make_summary(const Scene& scene, const FlowMark& from);
+
+/// Throws DivergedError naming the first number of a summary that is not finite.
+void expect_finite(const nlohmann::ordered_json& json, const std::string& path);
 
 /// The greatest and the mean speed of the blood inside [m/s], its kinetic energy [J], the mean pressure [Pa].
 struct BulkValues {
