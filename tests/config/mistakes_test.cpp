@@ -41,7 +41,16 @@ std::string pipe_and(const std::string& lines) { return pipe_deck + lines; }
 
 TEST(Mistakes, MissingKey) {
     EXPECT_EQ(mistakes_in(pipe_with("  spacing: \"0.2 mm\"\n", "")),
-              only("16:3: numerics.spacing is missing: the distance between particles, for example \"0.2 mm\""));
+              only("16:3: numerics: needs either spacing or across"));
+}
+
+TEST(Mistakes, SpacingThatFollowsTheVessel) {
+    EXPECT_EQ(mistakes_in(pipe_with("spacing: \"0.2 mm\"", "across: 12")),
+              only("16:11: numerics.across: is for scheme cells; moving particles need one spacing everywhere, numerics.spacing"));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  largest_spacing: \"0.3 mm\"\n  spacing:")),
+              only("16:20: numerics.largest_spacing: means something with numerics.across only"));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing: \"0.2 mm\"", "  scheme: cells\n  across: 12\n  largest_spacing: \"0.1 mm\"\n  smallest_spacing: \"0.2 mm\"")),
+              only("19:21: numerics.smallest_spacing: is more than numerics.largest_spacing, 0.1 mm"));
 }
 
 TEST(Mistakes, MissingRecord) {

@@ -61,6 +61,29 @@ TEST(SpacingField, KeepsItsBoundsAndItsGrowth) {
     EXPECT_DOUBLE_EQ(field({1, 1, 1}), bounded.smallest);
 }
 
+// Those of a centreline are enough where a vessel is round.
+TEST(SpacingField, OfKnownBallsIsThatOfAllBalls) {
+    const double length = 20e-3, from = 2e-3, to = 0.8e-3, slope = (from - to) / length;
+    const Lumen cone = moved(make_cone({.length = length, .inlet_radius = from, .outlet_radius = to}), tilt);
+    std::vector<InscribedBall> balls;
+    for (double x = 0; x <= length; x += 0.1e-3)
+        balls.push_back({tilt.place({x, 0, 0}), (from - slope * x) / std::sqrt(1 + slope * slope)});
+    const SpacingField known = make_spacing_field(cone, balls, settings), all = make_spacing_field(cone, settings);
+    for (const Vec3& own : random_points({{2 * from, -to, -to}, {length - from, to, to}}, 2000)) {
+        const Vec3 x = tilt.place(own);
+        if (contains(cone, x)) ASSERT_NEAR(known(x) / all(x), 1, 0.05) << own.x;
+    }
+    EXPECT_THROW(make_spacing_field(cone, std::vector<InscribedBall>{{{}, 0.1e-3}}, settings), GeometryError);
+}
+
+TEST(SpacingField, CanBeScaled) {
+    const Lumen cone = make_cone({.length = 10e-3, .inlet_radius = 2e-3, .outlet_radius = 0.6e-3});
+    const SpacingField field = make_spacing_field(cone, settings), coarse = field.scaled(1.6);
+    for (const Vec3& x : random_points(cone.bounds, 200)) ASSERT_NEAR(coarse(x), 1.6 * field(x), 1e-15);
+    EXPECT_DOUBLE_EQ(coarse.settings().smallest, 1.6 * settings.smallest);
+    EXPECT_DOUBLE_EQ(coarse.settings().across, settings.across / 1.6);
+}
+
 TEST(SpacingField, IsTheSameForAnotherNumberOfThreads) {
     const Lumen cone = make_cone({.length = 10e-3, .inlet_radius = 2e-3, .outlet_radius = 0.6e-3});
     const int threads = omp_get_max_threads();

@@ -64,6 +64,40 @@ TEST(CellScene, takesAWindkesselForItsResistances) {
     EXPECT_NEAR(scene->balance->end_states()[1].pressure, 7 + 4e8 * flow, 1e-4);
 }
 
+// As a coronary artery is: the pressure stands in the inlet, and the bed behind decides what flows. 93 mmHg are two hundred times
+// what the stream's own weight would give.
+TEST(CellScene, standsAnAorticPressureInFrontOfABed) {
+    const auto scene = make_solved_scene(tube(R"(inlet: {type: pressure, pressure: "93 mmHg"},
+  outlet: {type: resistance, resistance: "5e10 Pa s/m^3", distal_pressure: "5 mmHg"})"));
+    const double aorta = 93 * 133.322368, veins = 5 * 133.322368;
+    const double resistance = 8 * mu * length / (std::numbers::pi * std::pow(radius, 4));
+    const double expected = (aorta - veins) / (5e10 + resistance);
+    const auto ends = scene->balance->end_states();
+    EXPECT_NEAR(ends[1].flow / expected, 1, 1e-3);
+    EXPECT_NEAR(ends[0].flow / expected, -1, 1e-3);
+    EXPECT_NEAR(ends[0].pressure, aorta, 0.02 * resistance * expected);
+    EXPECT_NEAR((ends[0].pressure - ends[1].pressure) / (resistance * expected), 1, 0.03);
+}
+
+// The flow in a narrowing cone is nearly Poiseuille's of each place.
+TEST(CellScene, canFollowTheVessel) {
+    const deck::Case config = deck::parse_case(R"(version: 1
+case: {name: cone}
+geometry: {shape: {type: cone, diameters: ["4 mm", "1.6 mm"], length: "30 mm", axis: [1, 2, -0.5]}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings: {inlet: {type: flow, flow: "0.6 mL/min", profile: parabola}, outlet: {type: pressure, pressure: "0 Pa"}}
+numerics: {scheme: cells, across: 12, duration: "1 s"}
+)");
+    const auto scene = make_solved_scene(config);
+    const nlohmann::ordered_json summary = make_cell_summary(*scene);
+    EXPECT_NEAR(double(summary["spacing_m"]) / (1.6e-3 / 12), 1, 0.1);
+    EXPECT_NEAR(double(summary["largest_spacing_m"]) / (4e-3 / 12), 1, 0.1);
+    EXPECT_NEAR(double(summary["particles"]["across_narrowest"]), 12, 1.2);
+    const double a = 2e-3, b = 0.8e-3, q = 1e-8, along = 30e-3;
+    const double drop = 8 * mu * q / std::numbers::pi * along / (3 * (a - b)) * (1 / (b * b * b) - 1 / (a * a * a));
+    EXPECT_NEAR(scene->balance->end_states()[0].pressure / drop, 1, 0.03) << "1.5 % of it is the cone's slope";
+}
+
 TEST(CellScene, refusesWhatIsNotSteady) {
     const std::string out = R"(, outlet: {type: pressure, pressure: "0 Pa"})";
     EXPECT_NO_THROW(make_cell_lumen(tube(inflow + out)));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "patency/analysis/buckets.h"
@@ -99,29 +100,39 @@ void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool pl
 
 }  // namespace
 
-std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, double reach,
-                                    bool planar, const WallHint* wall) {
+std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
+                                    const LocalLength& reach, bool planar, const WallHint* wall) {
     std::vector<FlowSample> samples(places.size());
-    if (places.empty()) return samples;
-    const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, places, reach);
-    const bool has_points = wall && !wall->points.empty();
-    const Buckets surface(has_points ? std::span<const Vec3>(wall->points) : std::span<const Vec3>(), frame, places, reach);
+    std::vector<double> own(places.size());
+    for_each_index(places.size(), [&](std::size_t k) { own[k] = reach(places[k]); });
+    // Places of about one reach together: buckets of the widest would hold a host of the finest particles.
+    std::map<int, std::vector<std::size_t>> octaves;
+    for (std::size_t k = 0; k < places.size(); ++k) octaves[std::ilogb(own[k] / own[0])].push_back(k);
+    const std::span<const Vec3> wall_points = wall ? std::span<const Vec3>(wall->points) : std::span<const Vec3>();
+    for (const auto& [octave, members] : octaves) {
+        std::vector<Vec3> here;
+        double widest = 0;
+        for (const std::size_t k : members) here.push_back(places[k]), widest = std::max(widest, own[k]);
+        const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, here, widest);
+        const Buckets surface(wall_points, frame, here, widest);
 #pragma omp parallel for schedule(dynamic, 4)
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        std::vector<Datum> data;
-        buckets.for_each_near(places[k], [&](std::uint32_t i) {
-            const Vec3 d = shortest(fluid.position[i] - places[k], frame) / reach;
-            const double q2 = dot(d, d);
-            if (q2 < 1) data.push_back({d, kernel_weight(std::sqrt(q2)), fluid.velocity[i], fluid.pressure[i], true});
-        });
-        if (has_points && !data.empty())
-            surface.for_each_near(places[k], [&](std::uint32_t i) {
-                const Vec3 d = shortest(wall->points[i] - places[k], frame) / reach;
-                const double weight = kernel_weight(norm(d));
-                if (weight > 0) data.push_back({d, weight, wall->velocity ? wall->velocity(wall->points[i]) : Vec3{}, 0, false});
+        for (std::size_t n = 0; n < members.size(); ++n) {
+            const std::size_t k = members[n];
+            std::vector<Datum> data;
+            buckets.for_each_near(places[k], [&](std::uint32_t i) {
+                const Vec3 d = shortest(fluid.position[i] - places[k], frame) / own[k];
+                const double q2 = dot(d, d);
+                if (q2 < 1) data.push_back({d, kernel_weight(std::sqrt(q2)), fluid.velocity[i], fluid.pressure[i], true});
             });
-        else if (wall && !data.empty()) add_wall(data, places[k], reach, planar, *wall);
-        samples[k] = evaluate(data, planar, reach);
+            if (!wall_points.empty() && !data.empty())
+                surface.for_each_near(places[k], [&](std::uint32_t i) {
+                    const Vec3 d = shortest(wall_points[i] - places[k], frame) / own[k];
+                    const double weight = kernel_weight(norm(d));
+                    if (weight > 0) data.push_back({d, weight, wall->velocity ? wall->velocity(wall_points[i]) : Vec3{}, 0, false});
+                });
+            else if (wall && !data.empty()) add_wall(data, places[k], own[k], planar, *wall);
+            samples[k] = evaluate(data, planar, own[k]);
+        }
     }
     return samples;
 }

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "patency/bodies/fluid.h"
@@ -25,16 +27,30 @@ struct WallHint {
     std::function<double(const Vec3&)> distance;       ///< [m]
     std::function<Vec3(const Vec3&)> normal;
     std::function<Vec3(const Vec3&)> velocity;         ///< of the surface near a place [m/s]; empty: at rest
-    /// Points all over the surface, half of `reach` apart or less, if somebody has them [m]. Else points near each place are found
+    /// Points all over the surface, half of the reach apart or less, if somebody has them [m]. Else points near each place are found
     /// by distance and normal, which takes longer than all the rest.
     std::vector<Vec3> points{};
+};
+
+/// A length [m] that may depend on the place; a number is the same everywhere.
+class LocalLength {
+public:
+    LocalLength(double length) : at_([length](const Vec3&) { return length; }) {}
+    template <class F>
+        requires std::is_invocable_r_v<double, F, const Vec3&>
+    LocalLength(F at) : at_(std::move(at)) {}
+
+    double operator()(const Vec3& place) const { return at_(place); }
+
+private:
+    std::function<double(const Vec3&)> at_;
 };
 
 /// Weighted least squares with a full quadratic through the particles within `reach` of each place (a linear one where
 /// they are too few), weights of the Wendland kernel: exact for quadratic fields, third order. With a hint, places
 /// nearer to the wall than `reach` also see the wall's velocity, at points of the surface near them. `reach` is best 2h.
 /// Periodic frames are seen through.
-std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, double reach,
+std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, const LocalLength& reach,
                                     bool planar, const WallHint* wall = nullptr);
 
 /// `count` places from one point to another, both included [m].

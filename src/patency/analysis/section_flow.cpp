@@ -69,11 +69,12 @@ namespace {
 constexpr double slab_share = 0.75;   // of the reach, 2.6 spacings: two layers on both sides
 
 /// The flow through a section from the particles whose feet on its plane lie in its squares.
-double flow_of_particles(const FluidParticles& fluid, const Buckets& buckets, const SectionGrid& grid, double reach) {
+double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const SectionGrid& grid, const LocalLength& reach) {
     SectionShape shape{{}, grid.normal, grid.total_area(), 0};
     for (std::size_t k = 0; k < grid.place.size(); ++k) shape.centre += grid.area[k] / shape.area * grid.place[k];
+    const double slab = slab_share * reach(shape.centre), half_diagonal = std::sqrt(0.5) * grid.side;
+    const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, grid.place, slab + half_diagonal);
     std::vector<std::uint32_t> near;
-    const double slab = slab_share * reach, half_diagonal = std::sqrt(0.5) * grid.side;
     for (std::size_t k = 0; k < grid.place.size(); ++k) {
         const Vec3 d = grid.place[k] - shape.centre;
         shape.mean_square += grid.area[k] / shape.area * dot(d, d);
@@ -95,13 +96,11 @@ double flow_of_particles(const FluidParticles& fluid, const Buckets& buckets, co
 }   // namespace
 
 std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame,
-                                               std::span<const SectionGrid> sections, double reach,
+                                               std::span<const SectionGrid> sections, const LocalLength& reach,
                                                const WallHint& wall) {
     std::vector<Vec3> places;
     for (const SectionGrid& s : sections) places.insert(places.end(), s.place.begin(), s.place.end());
     const auto samples = sample_flow(fluid, frame, places, reach, false, &wall);
-    if (places.empty()) return {};
-    const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, places, reach);
 
     std::vector<SectionFlow> result;
     std::size_t first = 0;
@@ -118,7 +117,7 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
         }
         first += s.place.size();
         r.pressure /= seen;   // nothing over nothing, where no blood was near
-        r.flow = seen > 0 ? flow_of_particles(fluid, buckets, s, reach) : NAN;
+        r.flow = seen > 0 ? flow_of_particles(fluid, frame, s, reach) : NAN;
         r.mean_velocity = r.flow / r.area;
         result.push_back(r);
     }

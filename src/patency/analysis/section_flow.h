@@ -35,11 +35,11 @@ struct SectionFlow {
     double mean_velocity;   ///< flow over area [m/s]
     double peak_velocity;   ///< largest component along the normal at a square's middle [m/s]
 };
-/// What goes through each section now: the flow from the particles themselves in a slab of three quarters of `reach` [m] on both sides,
+/// What goes through each section now: the flow from the particles themselves in a slab of three quarters of the reach on both sides,
 /// which carry it whatever its profile; pressure and peak from samples in the squares. Squares without a particle within reach take
 /// no part in the means: if there are only such, flow and pressure are NaN.
 std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, const Frame& frame,
-                                               std::span<const SectionGrid> sections, double reach,
+                                               std::span<const SectionGrid> sections, const LocalLength& reach,
                                                const WallHint& wall);
 
 /// Means over instants and how much they swing. Flow and pressure of a section that saw no blood once stay NaN.

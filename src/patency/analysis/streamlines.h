@@ -17,10 +17,10 @@ struct Streamline {
 };
 
 struct StreamlineRule {
-    double step;            ///< length between points [m]
+    LocalLength step;             ///< length from a place to the next [m]
     double longest;         ///< [m]
     double slowest;         ///< a line ends where the blood is slower [m/s]
-    double reach;           ///< of samples [m]
+    LocalLength reach;            ///< of samples
     std::function<bool(const Vec3&)> is_inside;   ///< a line ends where this is false
 };
 

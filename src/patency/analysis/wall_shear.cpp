@@ -8,7 +8,7 @@
 namespace patency {
 
 WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
-                                    double reach, const WallHint& wall,
+                                    const LocalLength& reach, const WallHint& wall,
                                     const std::function<double(double)>& viscosity_at) {
     const auto samples = sample_flow(fluid, frame, places.position, reach, false, &wall);
     WallFlow flow{std::vector<Vec3>(samples.size()), std::vector<double>(samples.size())};

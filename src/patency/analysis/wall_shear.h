@@ -24,10 +24,10 @@ struct WallFlow {
 
 /// The force of the blood along the wall, per area [Pa], at every place: the viscosity at the shear rate there, times the
 /// velocity gradient fitted one-sidedly to the blood and to the wall's own velocity. It points where the blood goes. NaN
-/// where no blood is within `reach` [m]. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
+/// where no blood is within reach. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
 /// Pressures are fitted to the blood alone.
 WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
-                                    double reach, const WallHint& wall,
+                                    const LocalLength& reach, const WallHint& wall,
                                     const std::function<double(double)>& viscosity_at);
 
 /// Means over time of a wall shear stress. Places where any stress was NaN stay NaN.

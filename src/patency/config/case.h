@@ -285,7 +285,9 @@ struct Convergence {
 
 struct Numerics {
     SchemeName scheme = SchemeName::sph;
-    double spacing = 0;                       ///< m between particles
+    double spacing = 0;                       ///< m between particles; 0: follows the vessel (`across`)
+    std::optional<double> across;             ///< of cells: spacings in the local diameter, instead of one spacing
+    std::optional<double> smallest_spacing, largest_spacing;   ///< of cells [m]
     double smoothing_ratio = 1.3;             ///< h over spacing
     std::optional<double> sound_speed;        ///< m/s; absent: chosen (THEORY.md)
     std::optional<double> sound_speed_factor; ///< sound speed over reference speed, instead of sound_speed
@@ -298,6 +300,7 @@ struct Numerics {
     int threads = 0;                          ///< 0: all
     PressureReference pressure_reference = PressureReference::moving;
     int seed = 1;
+    bool follows_vessel() const { return scheme == SchemeName::cells && across; }
     bool operator==(const Numerics&) const = default;
 };
 

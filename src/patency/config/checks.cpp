@@ -23,6 +23,7 @@ public:
         check_openings();
         check_stent();
         check_initial();
+        check_numerics();
         check_output();
         check_runs();
     }
@@ -124,6 +125,20 @@ private:
                "leaves fewer than 4 particles across the narrowest place, " + format_quantity(narrowest, "mm") +
                    "; at least 12 give a sensible answer",
                {"geometry.shape"});
+    }
+
+    void check_numerics() {
+        const Numerics& n = case_.numerics;
+        expect(!n.across || n.scheme == SchemeName::cells, "numerics.across",
+               "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing", {"numerics.scheme"});
+        expect(n.across || !n.smallest_spacing, "numerics.smallest_spacing", "means something with numerics.across only");
+        expect(n.across || !n.largest_spacing, "numerics.largest_spacing", "means something with numerics.across only");
+        if (n.smallest_spacing && n.largest_spacing)
+            expect(*n.smallest_spacing <= *n.largest_spacing, "numerics.smallest_spacing",
+                   "is more than numerics.largest_spacing, " + format_quantity(*n.largest_spacing, "mm"), {"numerics.largest_spacing"});
+        if (case_.geometry.shape)
+            expect(!n.across || !case_.geometry.shape->is_planar(), "numerics.across", "follows a vessel in three dimensions, not a planar shape; give numerics.spacing",
+                   {"geometry.shape"});
     }
 
     void check_stent() {

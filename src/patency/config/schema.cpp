@@ -34,7 +34,13 @@ const Table& table_of<Numerics>() {
         {
             row(&Numerics::scheme, {.key = "scheme", .help = "moving particles, ours or the reference paper's, or a steady flow on the cells of still ones"}),
             row(&Numerics::spacing, {.key = "spacing", .help = "the distance between particles", .unit = "mm",
-                                     .range = above_up_to(0, 1), .example = "0.2 mm", .need = always}),
+                                     .range = above_up_to(0, 1), .example = "0.2 mm"}),
+            row(&Numerics::across, {.key = "across", .help = "of scheme cells: particles in the local diameter, instead of one spacing everywhere",
+                                    .range = between(4, 200), .example = "12"}),
+            row(&Numerics::smallest_spacing, {.key = "smallest_spacing", .help = "of scheme cells with `across`: no particles are nearer",
+                                              .unit = "mm", .range = above_up_to(0, 1)}),
+            row(&Numerics::largest_spacing, {.key = "largest_spacing", .help = "of scheme cells with `across`: no particles are farther apart",
+                                             .unit = "mm", .range = above_up_to(0, 1)}),
             row(&Numerics::smoothing_ratio, {.key = "smoothing_ratio", .help = "smoothing length over spacing",
                                              .range = between(1, 2)}),
             row(&Numerics::sound_speed, {.key = "sound_speed", .help = "the artificial speed of sound; chosen if absent",
@@ -57,7 +63,7 @@ const Table& table_of<Numerics>() {
                                                 .help = "whether pressure is solved above a moving level"}),
             row(&Numerics::seed, {.key = "seed", .help = "of random numbers", .range = between(0, 2147483647)}),
         },
-        {{.keys = {"sound_speed", "sound_speed_factor"}, .required = false}});
+        {{.keys = {"spacing", "across"}, .required = true}, {.keys = {"sound_speed", "sound_speed_factor"}, .required = false}});
     return table;
 }
 

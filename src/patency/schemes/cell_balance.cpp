@@ -13,39 +13,59 @@ namespace patency {
 
 using namespace cell_terms;
 
+namespace {
+
+/// The pressure [Pa] at which the ends' flows cancel if the vessel itself resists nothing. A start from another one would
+/// fill or empty the vessel in a rush.
+double level_without_flow(std::span<const CellEnd> ends) {
+    double largest = 0, pressures = 0, conductance = 0;
+    for (const CellEnd& end : ends)
+        if (end.kind == CellEnd::Kind::pressure) largest = std::max(largest, end.resistance);
+    const double least = largest > 0 ? 1e-6 * largest : 1;   // of an end without a resistance: it decides
+    for (const CellEnd& end : ends) {
+        if (end.kind != CellEnd::Kind::pressure) continue;
+        const double own = 1 / (end.resistance + least);
+        pressures += own * end.pressure, conductance += own;
+    }
+    if (conductance == 0)
+        throw DeckError(
+            "openings: all prescribe their flow, so that nothing tells the level of the pressure; give one a pressure "
+            "or a resistance");
+    return pressures / conductance;
+}
+
+}   // namespace
+
 CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span<const CellEnd> ends,
                          double reference_speed)
     : mesh_(mesh),
       fluid_(fluid),
       speed_(reference_speed),
       is_newtonian_(std::holds_alternative<Newtonian>(fluid.rheology)) {
-    std::vector<char> has_velocity, has_pressure;
-    double pressures = 0, count = 0;
-    for (const CellEnd& said : ends) {
-        has_velocity.push_back(said.kind == CellEnd::Kind::velocity);
-        has_pressure.push_back(said.kind == CellEnd::Kind::pressure);
-        if (said.kind == CellEnd::Kind::pressure) pressures += said.pressure, count += 1;
-    }
-    if (count == 0)
-        throw DeckError(
-            "openings: all prescribe their flow, so that nothing tells the level of the pressure; give one a pressure "
-            "or a resistance");
-    level_ = pressures / count;
-    for_pressure_ = make_gradients(mesh, has_pressure);
-    for_velocity_ =
-        fluid.free_slip ? make_gradients(mesh, has_velocity) : make_gradients_at_rest_on_walls(mesh, has_velocity);
-
+    level_ = level_without_flow(ends);
     const std::size_t cells = mesh.size();
     for (const double volume : mesh.volume) width_.push_back(std::cbrt(volume));
     state_.resize(cells), grad_p_.resize(cells), grad_u_.resize(cells), lack_.resize(cells);
     p_.assign(cells, 0), u_.assign(cells, {});
     face_flux_.resize(mesh.faces.size());
     patch_flux_.resize(mesh.patches.size());
-    imposed_.resize(mesh.patches.size());
+    profile_.resize(mesh.patches.size());
     ends_.resize(ends.size());
     for (std::uint32_t k = 0; k < mesh.patches.size(); ++k)
         if (const int o = mesh.patches[k].opening; o >= 0) ends_[std::size_t(o)].patches.push_back(k);
     for (std::size_t k = 0; k < ends.size(); ++k) set_end(ends[k], ends_[k]);
+    make_all_gradients();
+}
+
+void CellBalance::make_all_gradients() {
+    std::vector<char> has_velocity, has_pressure;
+    for (const End& end : ends_) {
+        has_velocity.push_back(end.is_imposed());
+        has_pressure.push_back(end.kind == CellEnd::Kind::pressure && !end.enters);
+    }
+    for_pressure_ = make_gradients(mesh_, has_pressure);
+    for_velocity_ =
+        fluid_.free_slip ? make_gradients(mesh_, has_velocity) : make_gradients_at_rest_on_walls(mesh_, has_velocity);
 }
 
 void CellBalance::set_end(const CellEnd& said, End& end) {
@@ -53,16 +73,16 @@ void CellBalance::set_end(const CellEnd& said, End& end) {
     end.wanted = said.flow * mesh_.depth / speed_;
     end.response = {(said.pressure - level_) / (fluid_.density * speed_ * speed_),
                     said.resistance / mesh_.depth / (fluid_.density * speed_)};
-    const double wanted = said.kind == CellEnd::Kind::velocity ? end.wanted : -1;
+    end.flow = end.wanted;
     double carried = 0;
     for (const std::uint32_t k : end.patches) {
         const CellPatch& patch = mesh_.patches[k];
-        imposed_[k] = said.velocity ? said.velocity(patch.centroid) / speed_ : -patch.normal;
-        carried += dot(imposed_[k], patch.area);
+        profile_[k] = said.velocity ? said.velocity(patch.centroid) / speed_ : -patch.normal;
+        carried += dot(profile_[k], patch.area);
     }
-    if (wanted != 0 && !(std::abs(carried) > 1e-3 * std::abs(end.wanted)))
+    if (end.wanted != 0 && !(std::abs(carried) > 1e-3 * std::abs(end.wanted)))
         throw DeckError("openings: the velocity over an opening carries nothing of its flow");
-    for (const std::uint32_t k : end.patches) imposed_[k] *= carried != 0 ? wanted / carried : 0;
+    for (const std::uint32_t k : end.patches) profile_[k] *= carried != 0 ? -1 / carried : 0;
 }
 
 void CellBalance::set_fields(const CellFields& fields) {
@@ -95,8 +115,8 @@ void CellBalance::compute_gradients() {
         for (std::size_t k = mesh_.patch_start[i]; k < mesh_.patch_start[i + 1]; ++k) {
             if (mesh_.patches[k].opening < 0) continue;
             const End& end = ends_[std::size_t(mesh_.patches[k].opening)];
-            if (end.kind == CellEnd::Kind::velocity)
-                g += outer(imposed_[k] - u, for_velocity_.patch[k]);
+            if (end.is_imposed())
+                g += outer(imposed(k) - u, for_velocity_.patch[k]);
             else
                 p += (end.pressure - p_[i]) * for_pressure_.patch[k];
         }
@@ -153,9 +173,9 @@ void CellBalance::compute_patch_fluxes() {
             patch_flux_[k] = into_wall(cell, patch.area, d, patch.distance, wall_viscosity(cell, patch));
         else if (is_open(patch))
             patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
-                                          std::max(0.0, -ends_[std::size_t(patch.opening)].flow) * imposed_[k]);
+                                          ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{});
         else
-            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed_[k]);
+            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k));
     });
 }
 
@@ -259,19 +279,24 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
 
 void CellBalance::add_openings(const CellVectors& x, CellVectors& y) const {
     for (const End& end : ends_) {
-        if (end.kind == CellEnd::Kind::velocity || !(end.slope > 0)) continue;
+        if (end.kind == CellEnd::Kind::velocity || !(end.slope > 0 || end.enters)) continue;
         double free = 0;
         for (const std::uint32_t k : end.patches) {
             const CellPatch& patch = mesh_.patches[k];
             const CellVector& z = x[patch.cell];
             free += dot(patch.area, Vec3{z[1], z[2], z[3]}) + norm(patch.area) / state_[patch.cell].c * double(z[0]);
         }
-        const double pressure = end.slope * free;
+        const double pressure = end.slope * free, flow = free - end.conductance * pressure;
         for (const std::uint32_t k : end.patches) {
             const CellPatch& patch = mesh_.patches[k];
             const Vec3 force = pressure * patch.area;
-            y[patch.cell] += CellVector{float(-pressure * norm(patch.area) / state_[patch.cell].c), float(force.x),
-                                        float(force.y), float(force.z)};
+            const double conductance = norm(patch.area) / state_[patch.cell].c;
+            if (end.enters) {
+                y[patch.cell][0] += float(share_of(k) * flow);
+                continue;
+            }
+            const double volume = -pressure * conductance;
+            y[patch.cell] += CellVector{float(volume), float(force.x), float(force.y), float(force.z)};
         }
     }
 }
@@ -281,6 +306,20 @@ void CellBalance::apply(const CellVectors& change) {
         p_[i] += double(change[i][0]);
         u_[i] += Vec3{change[i][1], change[i][2], change[i][3]};
     });
+    turn_ends();
+}
+
+void CellBalance::turn_ends() {
+    constexpr double enough = 1e-3;   // of all that passes: less may turn again the next time
+    double through = 0;
+    for (const End& end : ends_) through += 0.5 * std::abs(end.flow);
+    bool turned = false;
+    for (End& end : ends_) {
+        if (end.kind != CellEnd::Kind::pressure || std::abs(end.flow) < enough * through) continue;
+        turned = turned || end.enters != (end.flow < 0);
+        end.enters = end.flow < 0;
+    }
+    if (turned) make_all_gradients();
 }
 
 std::vector<CellEndState> CellBalance::end_states() const {
@@ -293,7 +332,7 @@ std::vector<CellEndState> CellBalance::end_states() const {
             pressure += norm(patch.area) * state_[patch.cell].p_at(way_to(patch));
             area += norm(patch.area);
         }
-        const double mean = end.kind == CellEnd::Kind::velocity ? pressure / area : end.pressure;
+        const double mean = end.is_imposed() ? pressure / area : end.pressure;
         states.push_back({end.flow * speed_ / mesh_.depth, level_ + scale * mean});
     }
     return states;
@@ -314,20 +353,34 @@ std::vector<Vec3> CellBalance::wall_shear_stress() const {
 }
 
 CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
+    // A mean of what the cells around extrapolate: where one cell's word stopped and the next one's began, a finer mesh would
+    // see a jump of the pressure, and blow.
+    constexpr double widths = 1.5;
     const PointTree tree(mesh_.point);
     CellFields fields{std::vector<double>(places.size()), std::vector<Vec3>(places.size())};
-    const double first = *std::max_element(width_.begin(), width_.end());
+    const double largest = *std::max_element(width_.begin(), width_.end());
     for_each_index(places.size(), [&](std::size_t n) {
+        const auto distance = [&](std::uint32_t i) { return norm(places[n] - mesh_.point[i]); };
         std::vector<std::uint32_t> found;
-        for (double reach = first; found.empty(); reach *= 2) tree.find(places[n], reach, found);
-        const std::uint32_t nearest =
-            *std::min_element(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
-                const Vec3 p = mesh_.point[a] - places[n], q = mesh_.point[b] - places[n];
-                return dot(p, p) != dot(q, q) ? dot(p, p) < dot(q, q) : a < b;
-            });
-        const Vec3 d = places[n] - mesh_.point[nearest];
-        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ * state_[nearest].p_at(d);
-        fields.velocity[n] = speed_ * state_[nearest].u_at(d);
+        for (double reach = 1e-2 * largest; found.empty(); reach *= 2) tree.find(places[n], reach, found);
+        const auto nearest = *std::min_element(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return distance(a) != distance(b) ? distance(a) < distance(b) : a < b;
+        });
+        const double reach = std::max(widths * width_[nearest], 1.5 * distance(nearest));
+        found.clear();
+        tree.find(places[n], reach, found);
+        std::sort(found.begin(), found.end());
+        double sum = 0, pressure = 0;
+        Vec3 velocity{};
+        for (const std::uint32_t i : found) {
+            const double q = distance(i) / reach;
+            if (q >= 1) continue;
+            const double weight = (1 - q) * (1 - q) * (1 - q) * (1 - q) * (1 + 4 * q);
+            const Vec3 d = places[n] - mesh_.point[i];
+            sum += weight, pressure += weight * state_[i].p_at(d), velocity += weight * state_[i].u_at(d);
+        }
+        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ * pressure / sum;
+        fields.velocity[n] = speed_ / sum * velocity;
     });
     return fields;
 }

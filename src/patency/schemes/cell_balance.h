@@ -84,11 +84,16 @@ private:
         CellEnd::Kind kind;
         std::vector<std::uint32_t> patches;
         cell_terms::OpenResponse response{};
-        double wanted = 0;   // flow
+        bool enters = false;   // through an end of a pressure: then with the end's profile
+        double wanted = 0;     // flow
         double flow = 0, pressure = 0, conductance = 0;
         double slope = 0;   // of the pressure by the free flow
+
+        bool is_imposed() const { return kind == CellEnd::Kind::velocity || enters; }
     };
     void set_end(const CellEnd& said, End& end);
+    void make_all_gradients();
+    void turn_ends();
     void compute_gradients();
     void compute_cell_states(double kappa);
     void compute_open_pressures();
@@ -97,8 +102,11 @@ private:
     cell_terms::Face face_of(const CellFace& face) const;
     double wall_viscosity(const cell_terms::CellState& cell, const CellPatch& patch) const;
     bool is_open(const CellPatch& patch) const {
-        return patch.opening >= 0 && ends_[std::size_t(patch.opening)].kind != CellEnd::Kind::velocity;
+        return patch.opening >= 0 && !ends_[std::size_t(patch.opening)].is_imposed();
     }
+    /// What an opening's flow is at a patch of it, with the end's profile; and the patch's share of the flow.
+    Vec3 imposed(std::size_t k) const { return -ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_[k]; }
+    double share_of(std::size_t k) const { return -dot(profile_[k], mesh_.patches[k].area); }
     Vec3 way_to(const CellPatch& patch) const { return patch.centroid - mesh_.point[patch.cell]; }
 
     // Inside, velocities are over the reference speed U, pressures over density U^2, viscosities over U.
@@ -108,7 +116,7 @@ private:
     bool is_newtonian_;
     CellGradients for_pressure_, for_velocity_;
     std::vector<double> width_;   // of a cell [m]
-    std::vector<Vec3> imposed_;   // per patch: velocity, or what a flow of -1 brings in
+    std::vector<Vec3> profile_;   // per patch: the velocity of a flow of -1 through its end
     std::vector<End> ends_;
 
     std::vector<cell_terms::CellState> state_;

@@ -16,7 +16,78 @@ namespace {
 // A linear solve that leaves more than this of the residual gets nowhere: the step is too long for it.
 constexpr double stagnant = 0.5;
 constexpr int most_cures = 6;
+constexpr double unsteady = 0.05, first_limit = 100;   // of the forces lacked; of the steps until then
 constexpr double runaway = 1e4;   // growth of the residual over the least so far that is no detour any more
+
+/// Of the pressure's own term in a step. With little of it a step is nearly Newton's, which finds the pressure behind a
+/// lesion at once instead of letting it drain; but far from the answer that throws the blood about.   THEORY.md (18.12)
+double pressure_share(double momentum_residual) {
+    constexpr double most = 0.1, least = 1e-5, near = 0.1;
+    return std::clamp(most * std::pow(momentum_residual / near, 3), least, most);
+}
+
+/// Tells a jet that goes on swinging behind a lesion, where no steady flow is or none can be found, from a solution on its way.
+class StallWatch {
+public:
+    static constexpr std::size_t window = 60;         // steps
+    static constexpr double progress = 0.5;           // of the residual in a window, or nothing is gained
+    static constexpr double standing = 2e-3;          // swing of the openings in a window that is none
+
+    void add(double residual, const std::vector<CellEndState>& ends) {
+        residuals_.push_back(residual);
+        ends_.push_back(ends);
+    }
+    /// Whether the residual of the last window was no better than that of the one before.
+    bool is_stalled() const {
+        if (residuals_.size() < 2 * window) return false;
+        const auto least = [&](std::size_t back) {
+            return *std::min_element(residuals_.end() - std::ptrdiff_t(back + window), residuals_.end() - std::ptrdiff_t(back));
+        };
+        return least(0) > progress * least(window);
+    }
+    double swing() const {
+        double low = INFINITY, high = -INFINITY, through = 0, pressure = 0, flow = 0;
+        for (std::size_t k = 0; k < ends_.back().size(); ++k) {
+            low = std::min(low, ends_.back()[k].pressure), high = std::max(high, ends_.back()[k].pressure);
+            through += 0.5 * std::abs(ends_.back()[k].flow);
+            const auto range = [&](double CellEndState::* value) {
+                double least = INFINITY, most = -INFINITY;
+                for (std::size_t n = ends_.size() - window; n < ends_.size(); ++n)
+                    least = std::min(least, ends_[n][k].*value), most = std::max(most, ends_[n][k].*value);
+                return most - least;
+            };
+            flow = std::max(flow, range(&CellEndState::flow)), pressure = std::max(pressure, range(&CellEndState::pressure));
+        }
+        return std::max(flow / through, high > low ? pressure / (high - low) : 0.0);
+    }
+    bool is_standing() const { return swing() < standing; }
+
+private:
+    std::vector<double> residuals_;
+    std::vector<std::vector<CellEndState>> ends_;
+};
+
+/// Of fields, one step after the other.
+class FieldMean {
+public:
+    void add(const CellFields& fields) {
+        sum_.pressure.resize(fields.pressure.size()), sum_.velocity.resize(fields.velocity.size());
+        for (std::size_t i = 0; i < fields.pressure.size(); ++i)
+            sum_.pressure[i] += fields.pressure[i], sum_.velocity[i] += fields.velocity[i];
+        ++count_;
+    }
+    int count() const { return count_; }
+    CellFields mean() const {
+        CellFields mean = sum_;
+        for (double& p : mean.pressure) p /= count_;
+        for (Vec3& u : mean.velocity) u = u / double(count_);
+        return mean;
+    }
+
+private:
+    CellFields sum_;
+    int count_ = 0;
+};
 
 }   // namespace
 
@@ -25,6 +96,8 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
     double courant = settings.first_courant, limit = settings.courant, kappa = settings.kappa;
     double least = INFINITY;
     int cures = 0;
+    StallWatch watch;
+    FieldMean mean;   // once it is stalled and stands
     CellVectors right, change;
     const auto precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
     const auto multiply = [&](const CellVectors& x, CellVectors& y) {
@@ -50,7 +123,16 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
         if (settings.interrupted && settings.interrupted()) return solution;
         if (step > 0) least = std::min(least, worst);
         if (worst > runaway * least) throw fail("ran away");
-        balance.fill({courant}, matrix, right);
+        watch.add(worst, balance.end_states());
+        if (mean.count() > 0 || (watch.is_stalled() && watch.is_standing())) mean.add(balance.fields());
+        if (mean.count() == int(StallWatch::window)) {
+            balance.set_fields(mean.mean());
+            balance.compute_residual(kappa);
+            solution.is_settled = true, solution.swing = watch.swing();
+            solution.history.push_back({balance.volume_residual(), balance.momentum_residual(), 0, 0, courant});
+            return solution;
+        }
+        balance.fill({courant, pressure_share(momentum)}, matrix, right);
         const KrylovResult linear =
             solve_by_krylov(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
         solution.history.push_back({volume, momentum, linear.residual, linear.steps, courant});
@@ -63,7 +145,7 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
             continue;
         }
         balance.apply(change);
-        courant = std::min(limit, settings.growth * courant);
+        courant = std::min({limit, settings.growth * courant, momentum > unsteady ? first_limit : INFINITY});
     }
     throw fail("has not converged");
 }

@@ -12,9 +12,9 @@ namespace patency {
 struct CellSolverSettings {
     double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
     int most_iterations = 400;
-    double first_courant = 5, courant = 100, growth = 1.4;
+    double first_courant = 5, courant = 1000, growth = 1.4;
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
-    int krylov_steps = 10;
+    int krylov_steps = 40;
     double krylov_tolerance = 0.1;
     std::function<bool()> interrupted = {};   ///< asked after every step; true ends the run
 };
@@ -26,12 +26,16 @@ struct CellIteration {
 };
 
 struct CellSolution {
-    bool is_converged = false;   ///< false: interrupted
+    bool is_converged = false;   ///< to the tolerance
+    /// Not to it: a jet that does not come to rest, while the openings' flows and pressures stand still. The fields are means
+    /// over the last steps; neither: interrupted.
+    bool is_settled = false;
+    double swing = 0;            ///< of what stands still: largest change of a flow over all that flows, of a pressure over their range
     std::vector<CellIteration> history;
     int linear_steps = 0;
 };
 
-/// From the fields that the balance has. Throws DivergedError if it cannot be brought to the tolerance: what, and how far.
+/// From the fields that the balance has. Throws DivergedError if it neither comes to the tolerance nor settles: what, and how far.
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings);
 
 }   // namespace patency

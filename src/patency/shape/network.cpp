@@ -72,6 +72,13 @@ double narrowest_diameter(const Network& network) {
     return 2 * radius;
 }
 
+double widest_diameter(const Network& network) {
+    double radius = 0;
+    for (const Tube& tube : network.tubes)
+        for (double r : tube.radii) radius = std::max(radius, r);
+    return 2 * radius;
+}
+
 Passage passage_of(const Network& network) {
     const auto cube = [](double r) { return r * r * r; };
     double outlets = 0;

@@ -57,6 +57,7 @@ void open_free_ends(Network& network);
 void open_at(Network& network, const std::string& name, const Vec3& point, const Vec3& normal);
 
 double narrowest_diameter(const Network& network);   ///< [m]
+double widest_diameter(const Network& network);      ///< [m]
 /// When flows go with the cube of healthy radii (Murray 1926), a tube's healthy radius being its largest. The drag is that
 /// of all tubes in a row, no less than that of any way through them.
 Passage passage_of(const Network& network);

@@ -17,10 +17,7 @@ namespace patency {
 
 namespace {
 
-struct Ball {
-    Vec3 centre;
-    double radius;
-};
+using Ball = InscribedBall;
 
 constexpr double ball_precision = 0.01;   // how near to the ridge of the distance a ball's centre is found, in radii
 constexpr double ball_step = 0.2;         // balls nearer to a larger one are left out, in radii: holds 99.5 % of a tube
@@ -74,16 +71,21 @@ std::vector<Ball> find_balls(const Lumen& lumen, double least) {
         const Vec3 at{double(n / (ny * nz)) + 0.5, double(n / nz % ny) + 0.5, double(n % nz) + 0.5};
         search.add(lumen.bounds.low + side * at, 0.5 * side, found[n]);
     });
-    std::vector<Ball> all, kept;
+    std::vector<Ball> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
+}
+
+/// From the largest to the smallest, and one ball of those of about one size with their centres in one cube.
+std::vector<Ball> thinned(std::vector<Ball> all, double least, const Vec3& origin) {
     const auto key = [](const Ball& b) { return std::tuple(-b.radius, b.centre.x, b.centre.y, b.centre.z); };
     std::sort(all.begin(), all.end(), [&](const Ball& a, const Ball& b) { return key(a) < key(b); });
-    // One ball, the largest, of those of about one size with their centres in one cube.
+    std::vector<Ball> kept;
     std::set<std::array<long, 4>> taken;
     for (const Ball& ball : all) {
         const double octave = std::ceil(2 * std::log2(ball.radius / least)),
                      cube = ball_step * least * std::exp2(octave / 2);
-        const Vec3 at = (ball.centre - lumen.bounds.low) / cube;
+        const Vec3 at = (ball.centre - origin) / cube;
         if (taken.insert({long(std::floor(at.x)), long(std::floor(at.y)), long(std::floor(at.z)), long(octave)}).second)
             kept.push_back(ball);
     }
@@ -212,9 +214,19 @@ void SpacingField::Grid::limit_growth(double growth) {
     }
 }
 
-double SpacingField::operator()(const Vec3& x) const { return grid_->at(x, settings_.smallest); }
+double SpacingField::operator()(const Vec3& x) const { return factor_ * grid_->at(x, settings_.smallest / factor_); }
 
-SpacingField make_spacing_field(const Lumen& lumen, const SpacingSettings& settings) {
+SpacingField SpacingField::scaled(double factor) const {
+    SpacingField field = *this;
+    field.factor_ *= factor;
+    field.settings_.smallest *= factor, field.settings_.largest *= factor, field.settings_.growth *= factor;
+    field.settings_.across /= factor;
+    return field;
+}
+
+namespace {
+
+void expect_sensible(const Lumen& lumen, const SpacingSettings& settings) {
     if (!(settings.smallest > 0 && settings.largest >= settings.smallest && std::isfinite(settings.largest)))
         throw GeometryError("The smallest spacing must be positive, and the largest not below it.");
     if (!(settings.across >= 1 && settings.growth > 0 && settings.growth <= 1))
@@ -222,18 +234,33 @@ SpacingField make_spacing_field(const Lumen& lumen, const SpacingSettings& setti
             "A vessel needs one spacing or more across, and a growth of the spacing above 0 and up to 1.");
     if (lumen.planar || dot(lumen.period, lumen.period) > 0)
         throw GeometryError("A spacing that follows the vessel needs a lumen in three dimensions, not a periodic one.");
-    // Half the diameter that has the smallest spacing; a third of that still counts as a vessel.
-    const double radius = 0.5 * settings.across * settings.smallest;
     const Vec3 size = lumen.bounds.high - lumen.bounds.low;
-    if (!(norm(size) < 3000 * radius))   // 300 million nodes at the worst, of four bytes
+    if (!(norm(size) < 1500 * settings.across * settings.smallest))   // 300 million nodes at the worst, of four bytes
         throw GeometryError("The smallest spacing is too small for a lumen of this size: take a larger one.");
-    const std::vector<Ball> balls = find_balls(lumen, radius / 3);
-    if (balls.empty())
+}
+
+/// Half the diameter that has the smallest spacing; a third of that still counts as a vessel.
+double least_radius(const SpacingSettings& settings) { return 0.5 * settings.across * settings.smallest / 3; }
+
+}   // namespace
+
+SpacingField make_spacing_field(const Lumen& lumen, std::span<const InscribedBall> balls, const SpacingSettings& settings) {
+    expect_sensible(lumen, settings);
+    const double least = least_radius(settings);
+    std::vector<Ball> wide;
+    for (const Ball& ball : balls)
+        if (ball.radius >= least) wide.push_back(ball);
+    if (wide.empty())
         throw GeometryError("The lumen is narrower everywhere than four of the smallest spacings: take smaller ones.");
     SpacingField field;
     field.settings_ = settings;
-    field.grid_ = std::make_shared<const SpacingField::Grid>(balls, radius / 2, settings);
+    field.grid_ = std::make_shared<const SpacingField::Grid>(thinned(std::move(wide), least, lumen.bounds.low), 1.5 * least, settings);
     return field;
+}
+
+SpacingField make_spacing_field(const Lumen& lumen, const SpacingSettings& settings) {
+    expect_sensible(lumen, settings);
+    return make_spacing_field(lumen, find_balls(lumen, least_radius(settings)), settings);
 }
 
 }   // namespace patency

@@ -105,16 +105,24 @@ Json make_cell_summary(const CellScene& scene) {
         largest_of(scene.mesh.size(), [&](std::size_t i) { return norm(fields.velocity[i]); });
     summary["mean_speed_m_per_s"] = mean([&](std::size_t i) { return norm(fields.velocity[i]); });
     summary["mean_pressure_pa"] = mean([&](std::size_t i) { return fields.pressure[i]; });
+    double finest = INFINITY, coarsest = 0;
+    for (const Vec3& x : scene.mesh.point) {
+        const double here = scene.spacing_at(x);
+        finest = std::min(finest, here), coarsest = std::max(coarsest, here);
+    }
     summary["particles"] = {{"fluid", scene.mesh.size()},
                             {"inside", scene.mesh.size()},
                             {"wall", 0},
-                            {"across_narrowest", scene.lumen.narrowest / config.numerics.spacing},
+                            {"across_narrowest", scene.lumen.narrowest / finest},
                             {"led_back_from_wall", scene.mesh.led_back}};
-    summary["spacing_m"] = config.numerics.spacing;
+    summary["spacing_m"] = finest;
+    summary["largest_spacing_m"] = coarsest;
     summary["reference_speed_m_per_s"] = scene.reference_speed;
     summary["acoustic_steps"] = 0;
     summary["iterations"] = scene.solution.history.size();
     summary["linear_steps"] = scene.solution.linear_steps;
+    summary["convergence"] = {{"is_converged", scene.solution.is_converged},
+                              {"change_percent", 100 * scene.solution.swing}};
     summary["volume_residual"] = scene.balance->volume_residual();
     summary["momentum_residual"] = scene.balance->momentum_residual();
     expect_finite(summary, "");
@@ -149,7 +157,7 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
         if (stage.progress) stage.progress->update(progress_of(now));
         return stage.interrupted && stage.interrupted();
     });
-    if (!scene->solution.is_converged) {
+    if (!scene->solution.is_converged && !scene->solution.is_settled) {
         say("interrupted; the flow on cells begins anew the next time");
         return Outcome::interrupted;
     }
@@ -167,7 +175,11 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
                    {"machine", machine_name()},
                    {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}});
     say(fmt::format("done: {} steps in {:.1f} s", scene->solution.history.size(), watch.wall()));
-    return Outcome::done;
+    if (scene->solution.is_converged) return Outcome::done;
+    stage.log(LogLevel::warning, fmt::format("the flow does not come to rest (the cells lack {:.1g} of it): the results are marked; they are means "
+                    "over the last steps, while flows and pressures at the openings stood within {:.2g} %",
+                    std::max(scene->balance->volume_residual(), scene->balance->momentum_residual()), 100 * scene->solution.swing));
+    return Outcome::unsettled;
 }
 
 }   // namespace patency

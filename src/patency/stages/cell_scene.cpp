@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "patency/base/errors.h"
+#include "patency/bodies/graded_points.h"
 #include "patency/bodies/relax.h"
 #include "patency/physics/open_ends/profile.h"
 #include "patency/stages/bed.h"
@@ -22,7 +23,6 @@ constexpr double steady_time = 1e6;         // s: when every rise from rest is o
 constexpr double coarsening = 1.6;          // of the spacing of the first solution: a quarter of the cells
 constexpr double fewest_across = 6;         // of the narrowest place, in a first solution
 constexpr double coarse_tolerance = 1e-3;   // of it: less than what the coarse cells err by
-constexpr double first_courant = 20;        // from a coarse solution: no start from rest
 
 void expect_steady(const deck::Case& config) {
     const std::string ask = "; scheme sph can do that";
@@ -72,9 +72,35 @@ CellEnd make_end(const Opening& opening, const deck::Opening& said, const EndLaw
 
 }   // namespace
 
-Lumen make_cell_lumen(const deck::Case& config) {
+Lumen make_cell_lumen(const deck::Case& config, const Vessel* vessel) {
     expect_steady(config);
-    return make_lumen(config);
+    return make_lumen(config, vessel);
+}
+
+namespace {
+
+/// Around the centrelines of a vessel.
+std::vector<InscribedBall> balls_of(const VesselAlong& along) {
+    std::vector<InscribedBall> balls;
+    for (const Centreline& line : along.lines.lines)
+        for (const CentrelinePoint& p : line.points) balls.push_back({p.place, p.radius});
+    return balls;
+}
+
+SpacingField make_field(const Lumen& lumen, const Vessel* vessel, const deck::Numerics& numerics) {
+    const double finest = std::max(lumen.narrowest / *numerics.across, numerics.smallest_spacing.value_or(0)),
+                 widest = norm(lumen.bounds.high - lumen.bounds.low);
+    const SpacingSettings settings{.smallest = finest,
+                                   .largest = std::max(finest, numerics.largest_spacing.value_or(widest)),
+                                   .across = *numerics.across};
+    return vessel ? make_spacing_field(lumen, balls_of(*vessel->along), settings) : make_spacing_field(lumen, settings);
+}
+
+}   // namespace
+
+CellPoints make_cell_points(const Lumen& lumen, const SpacingField& field) {
+    GradedPoints graded = make_graded_points(lumen, field);
+    return {std::move(graded.points), std::move(graded.spacing), field};
 }
 
 CellPoints make_cell_points(const Lumen& lumen, double spacing) {
@@ -83,12 +109,13 @@ CellPoints make_cell_points(const Lumen& lumen, double spacing) {
     CellPoints points;
     points.point.assign(fitted.fluid.begin(), fitted.fluid.begin() + std::ptrdiff_t(count));
     points.spacing.assign(count, spacing);
+    points.spacing_at = [spacing](const Vec3&) { return spacing; };
     return points;
 }
 
 std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen& lumen, const CellPoints& points) {
     auto scene = std::make_unique<CellScene>(
-        CellScene{config, lumen, make_cell_mesh(points.point, points.spacing, lumen), {}, 0, {}, {}});
+        CellScene{config, lumen, make_cell_mesh(points.point, points.spacing, lumen), points.spacing_at, {}, 0, {}, {}});
     tune_outlets(scene->config, lumen.openings);
     std::vector<EndLaw> laws;
     for (const Opening& opening : lumen.openings) {
@@ -103,32 +130,35 @@ std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen
 }
 
 void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings) {
-    CellSolverSettings own = settings;
-    if (coarser) {
-        scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
-        own.first_courant = first_courant;
-    }
+    if (coarser) scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
     CellMatrix matrix(scene.mesh);
-    scene.solution = solve_steady(*scene.balance, matrix, own);
+    scene.solution = solve_steady(*scene.balance, matrix, settings);
 }
 
 std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
                                              const std::function<bool(const CellScene&)>& watch) {
-    const Lumen lumen = make_cell_lumen(config);
-    const double spacing = config.numerics.spacing;
-    const auto solved = [&](double dp, const CellScene* coarser, double tolerance) {
-        auto scene = make_cell_scene(config, lumen, make_cell_points(lumen, dp));
+    std::shared_ptr<const Vessel> vessel;
+    if (config.has_vessel()) vessel = std::make_shared<const Vessel>(read_vessel(config));
+    const Lumen lumen = make_cell_lumen(config, vessel.get());
+    const deck::Numerics& numerics = config.numerics;
+    std::optional<SpacingField> field;
+    if (numerics.follows_vessel()) field = make_field(lumen, vessel.get(), numerics);
+    const double across = field ? *numerics.across : lumen.narrowest / numerics.spacing;
+    const auto solved = [&](double coarser_by, const CellScene* coarser, double tolerance) {
+        auto scene = make_cell_scene(config, lumen, field ? make_cell_points(lumen, field->scaled(coarser_by))
+                                                          : make_cell_points(lumen, coarser_by * numerics.spacing));
+        scene->vessel = vessel;
         CellSolverSettings settings{.tolerance = tolerance};
         if (watch) settings.interrupted = [&] { return watch(*scene); };
         solve_scene(*scene, coarser, settings);
         return scene;
     };
     std::unique_ptr<CellScene> coarse;
-    if (lumen.narrowest > fewest_across * coarsening * spacing) {
-        coarse = solved(coarsening * spacing, nullptr, coarse_tolerance);
-        if (!coarse->solution.is_converged) return coarse;   // interrupted
+    if (across > fewest_across * coarsening) {
+        coarse = solved(coarsening, nullptr, coarse_tolerance);
+        if (!coarse->solution.is_converged && !coarse->solution.is_settled) return coarse;   // interrupted
     }
-    return solved(spacing, coarse.get(), CellSolverSettings{}.tolerance);
+    return solved(1, coarse.get(), CellSolverSettings{}.tolerance);
 }
 
 }   // namespace patency

@@ -10,6 +10,8 @@
 #include "patency/config/case.h"
 #include "patency/schemes/cell_solver.h"
 #include "patency/shape/lumen.h"
+#include "patency/shape/spacing_field.h"
+#include "patency/stages/vessel.h"
 
 namespace patency {
 
@@ -17,22 +19,26 @@ namespace patency {
 struct CellPoints {
     std::vector<Vec3> point;       ///< [m]
     std::vector<double> spacing;   ///< [m]
+    std::function<double(const Vec3&)> spacing_at;   ///< everywhere in the lumen [m]
 };
 
 struct CellScene {
     deck::Case config;   ///< with the outlets' resistances tuned
     Lumen lumen;
     CellMesh mesh;
+    std::function<double(const Vec3&)> spacing_at;   ///< of its points [m]
     std::vector<CellEnd> ends;              ///< as lumen.openings
     double reference_speed;                 ///< [m/s]
     std::unique_ptr<CellBalance> balance;   ///< refers to the mesh
     CellSolution solution;
+    std::shared_ptr<const Vessel> vessel{};   ///< of a surface or a network
 };
 
 /// The lumen of a deck. Throws DeckError for what a steady flow on cells cannot be: pulses, walls that move, a body force.
-Lumen make_cell_lumen(const deck::Case& config);
+Lumen make_cell_lumen(const deck::Case& config, const Vessel* vessel = nullptr);
 
-/// Relaxed points, `spacing` [m] apart, behind the openings.
+/// Relaxed points behind the openings: as far apart as the field says, or `spacing` [m].
+CellPoints make_cell_points(const Lumen& lumen, const SpacingField& field);
 CellPoints make_cell_points(const Lumen& lumen, double spacing);
 
 /// Everything but the flow, which rests.

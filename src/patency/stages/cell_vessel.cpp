@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "patency/base/parallel.h"
 #include "patency/stages/material.h"
 #include "patency/stages/scene_sampling.h"
 #include "patency/stages/vessel_results.h"
@@ -15,13 +16,15 @@ std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
     auto scene = std::make_unique<Scene>();
     scene->config = cells.config;
     scene->lumen = cells.lumen;
-    scene->vessel = read_vessel(cells.config);
+    scene->vessel = *cells.vessel;
     scene->estimate = estimate_flow(cells.config, *scene->vessel);
     scene->material = make_material(cells.config.blood);
-    scene->numerics.spacing = cells.config.numerics.spacing;
+    scene->numerics.spacing = largest_of(cells.mesh.size(), [&](std::size_t i) { return cells.spacing_at(cells.mesh.point[i]); });
+    scene->spacing_at = cells.spacing_at;
     scene->numerics.reference_speed = cells.reference_speed;
-    const Bounds box = grown(cells.lumen.bounds, 2 * sampling_reach(*scene));
-    scene->frame = std::make_unique<Frame>(box.low, box.high, sampling_reach(*scene));
+    const double reach = 2 * scene->numerics.smoothing_ratio * scene->numerics.spacing;
+    const Bounds box = grown(cells.lumen.bounds, 2 * reach);
+    scene->frame = std::make_unique<Frame>(box.low, box.high, reach);
 
     const CellFields fields = cells.balance->fields();
     scene->fluid.resize(cells.mesh.size());

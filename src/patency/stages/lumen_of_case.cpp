@@ -33,8 +33,16 @@ std::vector<AxialRadius> outline_of(const deck::Shape& shape) {
     return {};
 }
 
-double extension_for(const deck::Numerics& numerics) {
-    return 12 * numerics.spacing;   // far enough for the buffer, the wall beyond it and its kernels
+/// How far a distance goes on past openings: for the buffer, the wall beyond it and its kernels; of cells, whose spacing
+/// follows the vessel, for the lattice that points rest against.
+double extension_for(const deck::Numerics& numerics, double widest) {
+    return numerics.follows_vessel() ? 4 * widest / *numerics.across : 12 * numerics.spacing;
+}
+
+/// The finest spacing of a vessel.
+double finest_spacing(const deck::Numerics& numerics, double narrowest) {
+    if (!numerics.follows_vessel()) return numerics.spacing;
+    return std::max(narrowest / *numerics.across, numerics.smallest_spacing.value_or(0));
 }
 
 Lumen make_box_of(const deck::Case& config, const deck::Shape& shape) {
@@ -64,7 +72,10 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
         if (is_free(branches[k].from, k)) starts.push_back(k);
         if (is_free(branches[k].to, k)) ends.push_back(k);
     }
-    BranchesShape result{.branches = {}, .extension = extension_for(config.numerics)};
+    double widest = 0;
+    for (const deck::Branch& branch : shape.branches)
+        for (const double d : branch.diameters) widest = std::max(widest, d);
+    BranchesShape result{.branches = {}, .extension = extension_for(config.numerics, widest)};
     for (std::size_t k = 0; k < branches.size(); ++k) {
         const deck::Branch& b = branches[k];
         BranchShape branch{.points = {b.from, b.to}, .radii = {0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}, .start = {}, .end = {}};
@@ -89,13 +100,13 @@ double narrowest_width(const deck::Shape& shape) {
 Lumen make_network_of(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     const Network network = read_network_of(config);
-    const double dp = config.numerics.spacing;
+    const double narrowest = narrowest_diameter(network), dp = finest_spacing(config.numerics, narrowest);
     constexpr double fewest_across = 4;   // as for shapes (config/checks.cpp)
-    if (narrowest_diameter(network) < fewest_across * dp)
+    if (narrowest < fewest_across * dp)
         throw DeckError(fmt::format("numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
                                     "a sensible answer",
-                                    1e3 * narrowest_diameter(network)));
-    Lumen lumen = make_network_lumen(network, extension_for(config.numerics), 0.5 * dp);
+                                    1e3 * narrowest));
+    Lumen lumen = make_network_lumen(network, extension_for(config.numerics, widest_diameter(network)), 0.5 * dp);
     expect_vessel_size({.opening = lumen.openings[0], .perimeter = 0, .flatness = 0}, g.unit.value_or("mm"));
     return lumen;
 }
@@ -117,15 +128,21 @@ Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
 
 Lumen make_lumen_of_surface(const deck::Case& config, const Vessel& vessel) {
     const deck::Geometry& geometry = config.geometry;
-    const double dp = config.numerics.spacing;
+    double narrowest = narrowest_diameter(*vessel.along), widest = 0;
+    for (const SurfaceOpening& opening : vessel.openings) {
+        narrowest = std::min(narrowest, 2 * opening.opening.radius);
+        widest = std::max(widest, 2 * opening.opening.radius);
+    }
+    const double dp = finest_spacing(config.numerics, narrowest);
     // Half a spacing: the distance errs by less than a twentieth of it. Ten voxels hold the wall's points and those that may
     // become some; the continuations hold the buffer, the wall beyond it and its kernels.
-    Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = 12 * dp,
+    Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = extension_for(config.numerics, widest),
                                                          .straight = geometry.extensions.diameters});
+    // Cells are few enough to ask the triangles, and a vessel's own spacings would need a grid of its finest everywhere.
+    if (config.numerics.follows_vessel()) lumen.distance = lumen.exact.value();
     std::vector<double> outlets;
     for (std::size_t k = 1; k < lumen.openings.size(); ++k) outlets.push_back(2 * lumen.openings[k].radius);
-    lumen.narrowest = std::min({2 * lumen.openings[0].radius, *std::min_element(outlets.begin(), outlets.end()),
-                                narrowest_diameter(*vessel.along)});
+    lumen.narrowest = narrowest;
     lumen.passage = passage_of(*vessel.along, outlets);
     return lumen;
 }

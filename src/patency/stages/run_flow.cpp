@@ -115,7 +115,10 @@ private:
         write_results();
         write_summary(stage_.folder.file("timing.json"), make_timing());
         say(fmt::format("done: {} acoustic steps in {:.1f} s", scene_->acoustic_steps - steps_before_, watch_.wall() - build_wall_));
-        return window_->is_watched() && !window_->is_settled() ? Outcome::unsettled : Outcome::done;
+        if (!window_->is_watched() || window_->is_settled()) return Outcome::done;
+        stage_.log(LogLevel::warning,
+                   "the flow had not settled at the end of numerics.duration: the results are marked; give it a longer one");
+        return Outcome::unsettled;
     }
 
     bool is_at_end() const { return scene_->time >= window_->end(); }

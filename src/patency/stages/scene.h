@@ -2,6 +2,7 @@
 // A scene: everything a stage works on, in memory. Made by build.h, moved on by flow.h; knows no files.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,6 +38,7 @@ struct Scene {
     FlowNumerics numerics;
     std::unique_ptr<FlowScheme> scheme;
     RelaxQuality relax_quality{}; ///< of the points it started from
+    std::function<double(const Vec3&)> spacing_at;   ///< [m]; empty: numerics.spacing everywhere
 
     double time = 0;                 ///< [s]
     double reference_pressure = 0;   ///< p_ref: fluid.pressure is above it [Pa]

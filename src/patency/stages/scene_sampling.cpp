@@ -3,7 +3,13 @@
 
 namespace patency {
 
-double sampling_reach(const Scene& scene) { return 2 * scene.numerics.smoothing_ratio * scene.numerics.spacing; }
+double spacing_at(const Scene& scene, const Vec3& place) {
+    return scene.spacing_at ? scene.spacing_at(place) : scene.numerics.spacing;
+}
+
+LocalLength sampling_reach(const Scene& scene) {
+    return [&](const Vec3& place) { return 2 * scene.numerics.smoothing_ratio * spacing_at(scene, place); };
+}
 
 WallHint wall_hint(const Scene& scene) {
     const SignedDistance& distance = scene.lumen.distance;
@@ -12,7 +18,7 @@ WallHint wall_hint(const Scene& scene) {
                   .velocity = {}};
     const WallParticles& wall = scene.wall;
     for (std::size_t i = 0; i < wall.size(); ++i)
-        if (wall.depth[i] < scene.numerics.spacing) hint.points.push_back(wall.position[i] - wall.depth[i] * wall.normal[i]);
+        if (wall.depth[i] < spacing_at(scene, wall.position[i])) hint.points.push_back(wall.position[i] - wall.depth[i] * wall.normal[i]);
     return hint;
 }
 

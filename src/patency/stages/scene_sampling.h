@@ -7,8 +7,11 @@
 
 namespace patency {
 
-/// Particles within this far of a place take part in its fit [m]: the kernel's support.
-double sampling_reach(const Scene& scene);
+/// Of a scene's particles at a place [m].
+double spacing_at(const Scene& scene, const Vec3& place);
+
+/// Particles within this far of a place take part in its fit: the kernel's support there. The scene must stay.
+LocalLength sampling_reach(const Scene& scene);
 
 /// Distance and normal of the scene's wall, which must outlive the hint, and the feet of its first layer of particles. The wall is at
 /// rest.

@@ -40,7 +40,7 @@ VesselCut::VesselCut(const Scene& scene) : space_(scene.vessel->checked.surface.
         for (std::size_t k = first; k <= branch.last; ++k) {
             const CentrelinePoint& p = points[k];
             if (p.arc < next && k != branch.last) continue;
-            next = p.arc + scene.numerics.spacing * (1 - 1e-9);
+            next = p.arc + spacing_at(scene, p.place) * (1 - 1e-9);
             const Vec3 sideways = cross(plane, p.tangent);
             if (norm(sideways) > 0.1) side = normalized(sideways);            // else the branch leaves the plane: keep the last
             else if (norm(side) == 0) side = normalized(cross(Vec3{p.tangent.y, p.tangent.z, p.tangent.x}, p.tangent));

@@ -24,9 +24,8 @@ std::vector<Vec3> point_normals(const Surface& surface) {
 
 }   // namespace
 
-std::vector<VesselStation> make_stations(const Vessel& vessel, double spacing) {
+std::vector<VesselStation> make_stations(const Vessel& vessel, const LocalLength& spacing) {
     const VesselAlong& along = vessel.along.value();
-    const double distance = std::max(station_distance, 2 * spacing);
     std::vector<VesselStation> stations;
     for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
         const Branch& branch = along.lines.branches[b];
@@ -36,7 +35,7 @@ std::vector<VesselStation> make_stations(const Vessel& vessel, double spacing) {
             const CrossSection& section = along.sections[branch.line][k];
             if (!section.is_closed || !section.holds_place || section.is_shared || point.arc < next) continue;
             stations.push_back({b, branch.line, point.arc, {section.place, section.normal, point.radius}, section.area});
-            next = point.arc + distance * (1 - 1e-9);
+            next = point.arc + std::max(station_distance, 2 * spacing(point.place)) * (1 - 1e-9);
         }
     }
     return stations;
@@ -56,7 +55,7 @@ VesselWall make_vessel_wall(const Vessel& vessel) {
 }
 
 VesselRecorder::VesselRecorder(const Scene& scene)
-    : stations_(make_stations(*scene.vessel, scene.numerics.spacing)), wall_(make_vessel_wall(*scene.vessel)), cut_(scene) {
+    : stations_(make_stations(*scene.vessel, [&](const Vec3& x) { return spacing_at(scene, x); })), wall_(make_vessel_wall(*scene.vessel)), cut_(scene) {
     const WallHint hint = wall_hint(scene);
     grids_.resize(stations_.size());
     for_each_task(stations_.size(), [&](std::size_t k) { grids_[k] = make_section_grid(stations_[k].plane, hint); });
@@ -71,7 +70,8 @@ VesselRecorder::VesselRecorder(const Scene& scene)
 
 void VesselRecorder::sample(const Scene& scene) {
     const WallHint hint = wall_hint(scene);
-    const double reach = sampling_reach(scene), mu = scene.material.viscosity;
+    const LocalLength reach = sampling_reach(scene);
+    const double mu = scene.material.viscosity;
     flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint), scene.reference_pressure);
     const auto constant = [mu](double) { return mu; };
     const WallFlow at_wall = flow_at_wall(scene.fluid, *scene.frame, wall_.places, reach, hint,

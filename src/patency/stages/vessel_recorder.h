@@ -61,7 +61,7 @@ private:
 
 /// The sections at which branches are measured: those of the vessel that belong to their branch alone, one every half
 /// millimetre, or two spacings if that is more.
-std::vector<VesselStation> make_stations(const Vessel& vessel, double spacing);
+std::vector<VesselStation> make_stations(const Vessel& vessel, const LocalLength& spacing);
 VesselWall make_vessel_wall(const Vessel& vessel);
 
 }   // namespace patency

@@ -61,7 +61,7 @@ std::optional<LesionFlow> evaluate_lesion(const Scene& scene, const VesselRecord
     const auto stations = stations_along(along, recorder, flow, lesion.line);
     if (stations.size() < 2) return {};
     LesionFlow result{.number = number, .flow = at_arc(stations, recorder, lesion.throat_arc, [](const StationFlow& s) { return s.flow.flow; }),
-                      .drop = 0, .read_arc = 0, .across = lesion.minimum_diameter / scene.numerics.spacing, .gauge_ratio = {}, .ffr = {}};
+                      .drop = 0, .read_arc = 0, .across = lesion.minimum_diameter / spacing_at(scene, point_at(along.lines.lines[lesion.line], lesion.throat_arc).place), .gauge_ratio = {}, .ffr = {}};
     result.read_arc = std::min(lesion.end_arc + distance_to_reading, recorder.stations()[stations.back()->station].arc);
     const double read = pressure_at(stations, recorder, result.read_arc);
     result.drop = pressure_at(stations, recorder, lesion.start_arc) - read;
@@ -205,13 +205,12 @@ void write_centreline(const OutputFolder& folder, const Scene& scene, const Vess
 
 void write_streamlines(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder) {
     const WallHint hint = wall_hint(scene);
-    const double dp = scene.numerics.spacing;
     const SectionPlane inlet = recorder.stations().front().plane;   // the inlet's branch is the first
     constexpr int seeds_across_radius = 4;
     const SectionGrid seeds = make_section_grid(inlet, hint, seeds_across_radius);
     double length = 0;
     for (const Centreline& line : scene.vessel->along->lines.lines) length = std::max(length, line.length());
-    const StreamlineRule rule{.step = dp, .longest = 2 * length, .slowest = 1e-3 * scene.numerics.reference_speed, .reach = sampling_reach(scene),
+    const StreamlineRule rule{.step = [&](const Vec3& x) { return spacing_at(scene, x); }, .longest = 2 * length, .slowest = 1e-3 * scene.numerics.reference_speed, .reach = sampling_reach(scene),
                               .is_inside = [&](const Vec3& x) { return hint.distance(x) < 0 && opening_beyond(scene.lumen, x) < 0; }};
     PolyData data{.space = scene.vessel->checked.surface.space};
     PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"};
@@ -238,7 +237,7 @@ VesselFlow evaluate_vessel(const Scene& scene, const VesselRecorder& recorder, d
     const auto means = recorder.flows().mean(), deviations = recorder.flows().deviation();
     for (std::size_t k = 0; k < means.size(); ++k) {
         if (!is_finite(means[k])) continue;
-        StationFlow s{k, means[k], deviations[k], 2 * recorder.stations()[k].plane.radius / scene.numerics.spacing, {}};
+        StationFlow s{k, means[k], deviations[k], 2 * recorder.stations()[k].plane.radius / spacing_at(scene, recorder.stations()[k].plane.centre), {}};
         if (aortic) s.ffr = (s.flow.pressure + result.level) / *aortic;
         result.stations.push_back(s);
     }

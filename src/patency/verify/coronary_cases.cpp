@@ -100,7 +100,8 @@ public:
     }
 
     void sample(const Scene& scene) {
-        const double reach = sampling_reach(scene), mu = scene.material.viscosity;
+        const LocalLength reach = sampling_reach(scene);
+        const double mu = scene.material.viscosity;
         flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint_), scene.reference_pressure);
         shear_.add(flow_at_wall(scene.fluid, *scene.frame, all_, reach, hint_, [mu](double) { return mu; }).shear_stress, 1);
     }
