@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions that no register has an instruction for, of a number or lane by lane of a pack: the same bits for both.
+#pragma once
+
+#include <cmath>
+
+#include "patency/base/pack.h"
+
+namespace patency {
+
+namespace detail {
+template <class T, int W, class F>
+Pack<T, W> for_each_lane(Pack<T, W> a, F f) {
+    for (int l = 0; l < W; ++l) a.v[l] = f(a.v[l]);
+    return a;
+}
+}   // namespace detail
+
+using std::cbrt;
+using std::exp;
+template <class T, int W>
+Pack<T, W> exp(Pack<T, W> a) {
+    return detail::for_each_lane(a, [](T x) { return std::exp(x); });
+}
+template <class T, int W>
+Pack<T, W> cbrt(Pack<T, W> a) {
+    return detail::for_each_lane(a, [](T x) { return std::cbrt(x); });
+}
+
+}   // namespace patency
