@@ -3,10 +3,18 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "patency/base/pack.h"
 
 namespace patency {
+
+/// A parameter, as the number type of the values it meets: a number or a pack of it.
+template <class T>
+PATENCY_INLINE T number(double value) {
+    if constexpr (std::is_arithmetic_v<T>) return T(value);
+    else return T(typename T::Scalar(value));
+}
 
 namespace detail {
 template <class T, int W, class F>

@@ -68,6 +68,17 @@ struct FibreArtery {
         return S + isochoric_pk2(C, w1, 0);
     }
 
+    double wave_modulus(const Mat3& F, const Fibres<double>& fibres) const {
+        const double i1 = trace(isochoric_left(F, determinant(F)));
+        double fibre = 0;
+        for (const Vec3& a : {fibres.first, fibres.second}) {
+            const Vec3 now = F * a;
+            const double E = fibre_strain(i1, now), rise = std::exp(growth * E * E);
+            fibre += stiffness * rise * (4 * dot(now, now) * (1 + 2 * growth * E * E) + 2 * E);
+        }
+        return isochoric_wave_modulus(F, shear, bulk) + fibre;
+    }
+
     /// dW/dE of one family [Pa].
     template <class T>
     T fibre_slope(const T& E) const {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elastic solids at large strain: each law is an energy per reference volume, the first Piola-Kirchhoff stress that the
 // loops use, and the same stress by the material (S of C) and the spatial route (tau of F), which tests compare.
-// No damage, no viscosity, no state.                                                          THEORY (19.4) to (19.9)
+// No damage, no viscosity, no state. wave_modulus bounds rho_0 c^2 of the fastest wave in the reference configuration,
+// for the time step: exact at F = 1, where it is the P-wave modulus.                          THEORY (19.4) to (19.9)
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "patency/physics/solid/elastic_moduli.h"
@@ -39,6 +41,10 @@ struct NeoHookean {
         const double J2 = determinant(C);
         return shear * (identity<double>() - inverse(C)) + 0.5 * lame * (J2 - 1) * inverse(C);
     }
+    double wave_modulus(const Mat3& F) const {
+        const double J = determinant(F);
+        return shear + stretch_bound(inverse(F)) * (shear + 0.5 * lame * (J * J + 1));
+    }
     Mat3 kirchhoff(const Mat3& F) const {
         const Mat3 b = F * transpose(F), one = identity<double>();
         return shear * (b - one) + volumetric_kirchhoff(lame, determinant(F)) * one;
@@ -64,6 +70,10 @@ struct StVenantKirchhoff {
     }
     Mat3 pk2(const Mat3& C) const {
         return shear * (C - identity<double>()) + 0.5 * lame * (trace(C) - 3) * identity<double>();
+    }
+    double wave_modulus(const Mat3& F) const {
+        const Mat3 S = pk2(transpose(F) * F);
+        return moduli().p_wave() * stretch_bound(F) + std::sqrt(double_dot(S, S));
     }
     Mat3 kirchhoff(const Mat3& F) const {
         const Mat3 b = F * transpose(F);
@@ -92,11 +102,18 @@ Mat<T> isochoric_left(const Mat<T>& F, const T& J) {
     return (T(1) / (c * c)) * (F * transpose(F));
 }
 
+/// Of the laws in isochoric invariants; shear: what 2 (w1 + w2) has become [Pa].
+inline double isochoric_wave_modulus(const Mat3& F, double shear, double bulk) {
+    const double J = determinant(F), f = stretch_bound(inverse(F));
+    return 4.0 / 3 * shear * std::max(stretch_bound(F), f) + 0.5 * bulk * (J * J + 1) * f;
+}
+
 /// W = c10 (I1 - 3) + c01 (I2 - 3) + U(J) of the isochoric invariants; G = 2 (c10 + c01).            THEORY (19.7)
 struct MooneyRivlin {
     double c10, c01, bulk;   ///< Pa
 
     ElasticModuli moduli() const { return {2 * (c10 + c01), bulk}; }
+    double wave_modulus(const Mat3& F) const { return isochoric_wave_modulus(F, 2 * (c10 + c01), bulk); }
 
     double energy(const Mat3& F) const {
         const double J = determinant(F);
@@ -126,6 +143,12 @@ struct Yeoh {
     double c1, c2, c3, bulk;   ///< Pa
 
     ElasticModuli moduli() const { return {2 * c1, bulk}; }
+    double wave_modulus(const Mat3& F) const {
+        const Mat3 b = isochoric_left(F, determinant(F)), away = deviator(b);
+        const double i1 = trace(b), bend = std::max(2 * c2 + 6 * c3 * (i1 - 3), 0.0);   // W'' in I1, |dI1/dF| = |2 dev b F^-T|
+        return isochoric_wave_modulus(F, 2 * std::max(slope(i1), c1), bulk) +
+               4 * bend * double_dot(away, away) * stretch_bound(inverse(F));
+    }
 
     double energy(const Mat3& F) const {
         const double J = determinant(F), x = trace(isochoric_left(F, J)) - 3;

@@ -46,6 +46,8 @@ struct J2Plastic {
     Hardening hardening;
 
     ElasticModuli moduli() const { return elastic; }
+    /// Bounds rho_0 c^2 of the fastest wave in the reference configuration [Pa], for the time step.
+    double wave_modulus(const Mat3& F) const { return elastic.p_wave() * stretch_bound(inverse(F)); }
 
     /// The stress at F, having been at `before`: b_e = F C_p^-1 F^T, log strain e = ln(b_e)/2, radial return to the
     /// yield surface in e. Exact for proportional loading however large the step.                THEORY (19.12), (19.13)

@@ -2,7 +2,7 @@
 // What laws of solids share: measures of a deformation gradient F, and one stress told as another.  THEORY (19.1), (19.2)
 #pragma once
 
-#include <type_traits>
+#include <cmath>
 
 #include "patency/base/lane_math.h"
 #include "patency/base/vec.h"
@@ -18,16 +18,17 @@ template <class T>
 T double_dot(const Mat<T>& a, const Mat<T>& b) {
     return dot(a.x, b.x) + dot(a.y, b.y) + dot(a.z, b.z);
 }
-/// A parameter of a law, as the number type of its arguments.
-template <class T>
-T number(double value) {
-    if constexpr (std::is_arithmetic_v<T>) return T(value);
-    else return T(typename T::Scalar(value));
-}
 /// a - tr(a)/3 1
 template <class T>
 Mat<T> deviator(const Mat<T>& a) {
     return a - (number<T>(1.0 / 3) * trace(a)) * identity<T>();
+}
+
+/// An upper bound of the largest squared stretch of F, which it meets at F = 1 and comes near to where one stretch stands
+/// out: 1 + |C - 1|. Of F^-1: how much a fibre has been shortened.
+inline double stretch_bound(const Mat3& F) {
+    const Mat3 E = transpose(F) * F - identity<double>();
+    return 1 + std::sqrt(double_dot(E, E));
 }
 
 /// P = tau F^-T, S = F^-1 P: first and second Piola-Kirchhoff from the Kirchhoff stress tau = J sigma.
