@@ -33,6 +33,7 @@ void solid_step(SolidSystem& system, double time, double dt) {
         part->body->drift(0.5 * dt, middle);
         compute_loads(*part, system.gravity, middle);
     }
+    for (auto& contact : system.contacts) contact->add_forces(dt);
     for (auto& part : system.parts) {
         if (part->surface) part->surface->push(part->body->particles());
         part->body->compute_force(middle);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "patency/bodies/contact.h"
 #include "patency/bodies/solid_surface.h"
 #include "patency/schemes/solid_body.h"
 
@@ -28,6 +29,7 @@ struct SolidPart {
 
 struct SolidSystem {
     std::vector<std::unique_ptr<SolidPart>> parts;
+    std::vector<std::unique_ptr<Contact>> contacts;   ///< between surfaces of the parts
     Vec3 gravity;              ///< [m/s^2]
     bool is_relaxed = false;   ///< motion is damped away, each part at its own present frequency    THEORY (20.13)
 };

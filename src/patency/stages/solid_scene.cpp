@@ -140,6 +140,13 @@ std::unique_ptr<SolidScene> build_solids(const deck::Case& config) {
     scene->system.gravity = config.body_force;
     scene->system.is_relaxed = config.numerics.solid.relaxation == deck::Relaxation::adaptive;
     for (std::size_t k = 0; k < config.solids.size(); ++k) scene->system.parts.push_back(make_part(config, k));
+    const double step = stable_step(scene->system);
+    for (const deck::ContactDeck& said : config.contacts) {
+        SolidSurface& surface = *scene->part(said.solid).surface;
+        const ContactNumerics numerics{.friction = said.friction, .step = step};
+        scene->system.contacts.push_back(said.plane ? make_plane_contact(surface, said.plane->point, normalized(said.plane->normal), numerics)
+                                                    : make_surface_contact(surface, *scene->part(*said.with).surface, numerics));
+    }
     return scene;
 }
 
