@@ -121,7 +121,8 @@ Mat3 SolidBody::cauchy(std::size_t i) const {
     return (1 / determinant(F)) * tau;
 }
 
-SolidEnergy SolidBody::energy() const {
+SolidEnergy SolidBody::energy() {
+    compute_deformation();
     const SolidParticles& p = particles();
     const auto elastic = [&](std::size_t i) {
         const Mat3 F = deformation(i);

@@ -59,9 +59,11 @@ public:
     /// forces, dt apart; for adaptive relaxation, once in every step after compute_force. Zero at first.   THEORY (20.14)
     double find_present_frequency_squared(double dt);
 
-    virtual Mat3 deformation(std::size_t i) const = 0;   ///< F of the last compute_force
+    /// F of the particles where they are now; compute_force does it too. A step leaves F of its middle.
+    virtual void compute_deformation() = 0;
+    virtual Mat3 deformation(std::size_t i) const = 0;   ///< F as last computed
     Mat3 cauchy(std::size_t i) const;                    ///< stress [Pa] at that deformation
-    SolidEnergy energy() const;
+    SolidEnergy energy();                                ///< of the particles where they are now
     /// What constraint (from 0) gave so far [N s].
     const Vec3& reaction_impulse(std::size_t constraint) const { return reactions_.at(constraint); }
     virtual double mean_neighbours() const = 0;

@@ -40,13 +40,17 @@ public:
         find_constrained();
     }
 
+    void compute_deformation() override {
+        sum_deformation();
+        is_deformed_ = true;
+    }
+
     void compute_force(double time) override {
         compute_deformation();
         std::uint32_t inside_out = no_particle;
         for (std::size_t m = 0; m < members_.size(); ++m)
             inside_out = std::min(inside_out, compute_stress(solid_.materials[m], members_[m], input_, particles(), stress_));
         if (inside_out != no_particle) report_inside_out(inside_out, time);
-        is_deformed_ = true;
         if (numerics_.viscosity > 0) sum_force<true>();
         else sum_force<false>();
     }
@@ -171,7 +175,7 @@ private:
         sum_over_neighbours<T>(rows_, scale_, own, other, term, finish, numerics_.loop);
     }
 
-    void compute_deformation() {
+    void sum_deformation() {
         const auto records = records_of(geometry_, displacement_);
         sum<solid_terms::Deformation>(records, records, {}, [&](std::uint32_t i, const std::array<T, 9>& s) {
             for (std::size_t k = 0; k < 9; ++k) input_.sums[k][i] = s[k];
