@@ -154,7 +154,9 @@ private:
             for (std::size_t k = 0; k < solid.holds.size(); ++k) {
                 const Hold& h = solid.holds[k];
                 const std::string key = path + "holds." + std::to_string(k) + ".";
-                expect(h.low.x <= h.high.x && h.low.y <= h.high.y && h.low.z <= h.high.z, key + "high", "is below low", {key + "low"});
+                expect(h.low.has_value() == h.high.has_value(), path + "holds." + std::to_string(k), "low and high belong together");
+                if (h.low && h.high)
+                    expect(h.low->x <= h.high->x && h.low->y <= h.high->y && h.low->z <= h.high->z, key + "high", "is below low", {key + "low"});
             }
         }
         const auto is_known = [&](const std::string& name) {

@@ -70,12 +70,13 @@ const Table& table_of<SolidMaterialChoice>() {
 template <>
 const Table& table_of<Hold>() {
     static const Table table = make_table<Hold>("Particles of a solid that are held or led.", {
-        row(&Hold::low, {.key = "low", .help = "the lowest corner of the box they are in at first", .unit = "mm", .need = always}),
-        row(&Hold::high, {.key = "high", .help = "its highest corner", .unit = "mm", .need = always}),
+        row(&Hold::face, {.key = "face", .help = "the face they lie at, instead of a box", .example = "\"outer\""}),
+        row(&Hold::low, {.key = "low", .help = "the lowest corner of the box they are in at first; with high", .unit = "mm"}),
+        row(&Hold::high, {.key = "high", .help = "its highest corner", .unit = "mm"}),
         row(&Hold::axes, {.key = "axes", .help = "which axes are held", .example = "[true, false, false]"}),
         row(&Hold::displacement, {.key = "displacement", .help = "where the held axes go; they stay if absent", .unit = "mm"}),
         row(&Hold::ramp, {.key = "ramp", .help = "the time in which they go there", .unit = "s", .range = between(0, 1e4)}),
-    });
+    }, {{.keys = {"face", "low"}}});
     return table;
 }
 

@@ -52,9 +52,10 @@ struct SolidMaterialChoice {
     bool operator==(const SolidMaterialChoice&) const = default;
 };
 
-/// Particles within a box of the reference configuration, some of whose axes are told how to move.
-struct Hold {
-    Vec3 low, high;                              ///< m, corners of the box
+/// Particles within a box of the reference configuration, or those that lie at a face, some of whose axes are told how to move.
+struct Hold {   // exactly one of face, low + high
+    std::optional<std::string> face;
+    std::optional<Vec3> low, high;               ///< m, corners of the box
     std::array<bool, 3> axes{true, true, true};
     Vec3 displacement;                           ///< m, of the held axes, in the end
     double ramp = 0;                             ///< s in which it is reached, smoothly
@@ -97,7 +98,7 @@ struct ContactDeck {   // exactly one of with, plane
 struct SolidSettings {
     bool plane_strain = false;        ///< two-dimensional, z = 0
     double smoothing_ratio = 1.15;    ///< h over spacing
-    double hourglass = 0.2;           ///< over the shear modulus
+    double hourglass = 1;             ///< over the shear modulus
     double viscosity = 0;             ///< alpha
     double cfl = 0.6;
     Relaxation relaxation = Relaxation::none;

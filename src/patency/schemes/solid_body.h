@@ -21,7 +21,7 @@ struct SolidNumerics {
     double smoothing_ratio = 1.15;   ///< h / dp
     bool planar = false;             ///< plane strain, z = 0
     double cfl = 0.6;                ///< of the P-wave over h
-    double hourglass = 0.2;          ///< stiffness against what no linear deformation explains, over the shear modulus
+    double hourglass = 1;            ///< stiffness against what no linear deformation explains, over the shear modulus   THEORY (20.6)
     double viscosity = 0;            ///< alpha: pairs part or approach against alpha rho c h                 THEORY (20.9)
     Precision precision = Precision::double_precision;
     LoopKind loop = LoopKind::packed;

@@ -6,6 +6,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/bodies/closest_point.h"
 #include "patency/bodies/solid_shape.h"
 #include "patency/stages/solid_material.h"
 
@@ -35,8 +36,29 @@ SolidNumerics make_solid_numerics(const deck::Case& config, const deck::SolidDec
     return n;
 }
 
-bool is_within(const Vec3& x, const deck::Hold& h) {
-    return x.x >= h.low.x && x.x <= h.high.x && x.y >= h.low.y && x.y <= h.high.y && x.z >= h.low.z && x.z <= h.high.z;
+/// The number of a face of the solid. @throws DeckError at `key`.
+std::uint16_t face_of(const SurfaceElements& surface, const std::string& name, const std::string& key) {
+    const auto found = std::find(surface.faces.begin(), surface.faces.end(), name);
+    if (found != surface.faces.end()) return std::uint16_t(found - surface.faces.begin());
+    throw DeckError(key + ": there is no face " + double_quoted(shortened(name)) + "; there are " + join(surface.faces, ", ", " and "));
+}
+
+double distance_to_face(const Vec3& x, const SurfaceElements& surface, std::uint16_t face, bool planar) {
+    double nearest = INFINITY;
+    for (std::size_t e = 0; e < surface.elements.size(); ++e) {
+        if (surface.face[e] != face) continue;
+        const auto& [ia, ib, ic] = surface.elements[e];
+        const Vec3 &a = surface.vertices[ia], &b = surface.vertices[ib], &c = surface.vertices[ic];
+        const auto w = planar ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
+        nearest = std::min(nearest, norm(w[0] * a + w[1] * b + w[2] * c - x));
+    }
+    return nearest;
+}
+
+/// Whether a particle lies in the box of a hold, or in the layer at its face: particles there are half a spacing deep.
+bool is_held(const Vec3& x, const deck::Hold& h, const SurfaceElements& surface, const std::string& key, const SolidNumerics& numerics) {
+    if (h.face) return distance_to_face(x, surface, face_of(surface, *h.face, key + ".face"), numerics.planar) < 0.75 * numerics.spacing;
+    return x.x >= h.low->x && x.x <= h.high->x && x.y >= h.low->y && x.y <= h.high->y && x.z >= h.low->z && x.z <= h.high->z;
 }
 
 /// 0 to 1 in `ramp` with no velocity and no acceleration at the ends.
@@ -45,7 +67,7 @@ double smooth_rise(double time, double ramp) {
     return s * s * s * (10 + s * (-15 + 6 * s));
 }
 
-void hold_particles(const deck::SolidDeck& said, const std::string& path, Solid& solid) {
+void hold_particles(const deck::SolidDeck& said, const std::string& path, const SurfaceElements& surface, const SolidNumerics& numerics, Solid& solid) {
     SolidParticles& p = solid.particles;
     for (std::size_t k = 0; k < said.holds.size(); ++k) {
         const deck::Hold& h = said.holds[k];
@@ -53,10 +75,11 @@ void hold_particles(const deck::SolidDeck& said, const std::string& path, Solid&
         if (norm(h.displacement) > 0)
             constraint.displacement = [to = h.displacement, ramp = h.ramp](const Vec3&, double time) { return smooth_rise(time, ramp) * to; };
         solid.constraints.push_back(constraint);
+        const std::string key = path + ".holds." + std::to_string(k);
         std::size_t count = 0;
         for (std::size_t i = 0; i < p.size(); ++i)
-            if (is_within(p.reference[i], h)) p.constraint[i] = std::int32_t(k + 1), ++count;
-        if (count == 0) throw DeckError(path + ".holds." + std::to_string(k) + ": no particle lies in this box");
+            if (is_held(p.reference[i], h, surface, key, numerics)) p.constraint[i] = std::int32_t(k + 1), ++count;
+        if (count == 0) throw DeckError(key + ": no particle lies there");
     }
 }
 
@@ -103,18 +126,12 @@ std::unique_ptr<SolidPart> make_part(const deck::Case& config, std::size_t index
         solid.particles.mass[i] = solid.materials[0].density * fill.volumes[i];
         solid.particles.velocity[i] = said.velocity;
     }
-    hold_particles(said, path, solid);
+    hold_particles(said, path, fill.surface, numerics, solid);
     lay_fibres(said, path, solid);
     part->body = make_solid_body(solid, numerics);
     part->surface = std::make_unique<SolidSurface>(fill.surface, solid.particles, numerics.kernel().support(), numerics.planar);
-    const auto& faces = fill.surface.faces;
-    for (std::size_t k = 0; k < said.pressures.size(); ++k) {
-        const auto found = std::find(faces.begin(), faces.end(), said.pressures[k].face);
-        if (found == faces.end())
-            throw DeckError(path + ".pressures." + std::to_string(k) + ".face: there is no face " + double_quoted(shortened(said.pressures[k].face)) +
-                            "; there are " + join(faces, ", ", " and "));
-        part->pressures.push_back({std::uint16_t(found - faces.begin()), make_pressure(said.pressures[k])});
-    }
+    for (std::size_t k = 0; k < said.pressures.size(); ++k)
+        part->pressures.push_back({face_of(fill.surface, said.pressures[k].face, path + ".pressures." + std::to_string(k) + ".face"), make_pressure(said.pressures[k])});
     return part;
 }
 

@@ -179,7 +179,7 @@ void measure_plastic_tube(const deck::Case& config, const std::string& run, cons
     double pressure = 0, largest = 0;
     if (run.starts_with("collapse")) {
         // The pressure follows the difference of the radius from a leading one, twenty times as stiffly as the tube.
-        const double to = 12 * yield / metal.elastic.young() * A, stiffness = 20 * metal.elastic.young() / A;
+        const double to = 6 * yield / metal.elastic.young() * A, stiffness = 20 * metal.elastic.young() / A;
         part.pressures = {{tube.inner, [&](double) { return pressure; }}};
         run_to(*scene, T, interrupted, [&] {
             pressure = std::max(0.0, stiffness * (A + to * scene->time / T - tube.radius()));

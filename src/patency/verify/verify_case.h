@@ -84,6 +84,6 @@ std::vector<VerifyCase> coronary_cases();    // coronary_bifurcation
 std::vector<VerifyCase> cell_cases();        // cells_pipe
 std::vector<VerifyCase> solid_point_cases(); // material_points, patch
 std::vector<VerifyCase> solid_cases();       // beam, thick_tube, plastic_tube, taylor_bar
-std::vector<VerifyCase> contact_cases();     // hertz, incline, two_rings, three_rings
+std::vector<VerifyCase> contact_cases();     // incline, two_rings, three_rings
 
 }  // namespace patency
