@@ -60,6 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Surface, Contacts, ::testing::Values(true, false));
 
 TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
     const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .step = step});
+    EXPECT_EQ(contact->report().touching, 0u) << "before anything was looked at";
     block.move({}), ball.move({0.1e-3, -0.3e-3, 0.05e-3});
     contact->add_forces(0);
     const Vec3 on_block = block.load(), on_ball = ball.load();

@@ -49,7 +49,8 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
 class Pass {
 public:
     Pass(SolidSurface& own, SolidSurface& other, const ContactNumerics& numerics)
-        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), hits_(own.size()), forces_(own.size()) {
+        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), hits_(own.size()), forces_(own.size()),
+          losses_(own.size()), energies_(own.size()) {
         for (std::size_t v = 0; v < other.size(); ++v) lightest_ = std::min(lightest_, other.mass(v));
     }
 

@@ -12,7 +12,7 @@
 namespace patency::solid_terms {
 
 template <class P>
-P weight(const Pair<P>& pair, const P& volume) {
+PATENCY_INLINE P weight(const Pair<P>& pair, const P& volume) {
     return pair.t * pair.t * (pair.t * volume);
 }
 
@@ -20,7 +20,7 @@ P weight(const Pair<P>& pair, const P& volume) {
 struct Moment {
     static constexpr int own_extras = 0, extras = 0, sums = 6;
     template <class P>
-    void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>& j, std::array<P, 6>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>& j, std::array<P, 6>& sum) const {
         const auto& d = pair.d;
         const P w = weight(pair, j.value), wx = w * d.x, wy = w * d.y;
         sum[0] = fma(wx, d.x, sum[0]), sum[1] = fma(wy, d.y, sum[1]), sum[2] = fma(w * d.z, d.z, sum[2]);
@@ -29,7 +29,7 @@ struct Moment {
 };
 
 template <class P>
-Vec<P> difference(const Quads<P>& i, const Quads<P>& j) {
+PATENCY_INLINE Vec<P> difference(const Quads<P>& i, const Quads<P>& j) {
     return {coordinate_difference(i.a, j.a), coordinate_difference(i.b, j.b), coordinate_difference(i.c, j.c)};
 }
 
@@ -37,7 +37,7 @@ Vec<P> difference(const Quads<P>& i, const Quads<P>& j) {
 struct Deformation {
     static constexpr int own_extras = 1, extras = 1, sums = 9;
     template <class P>
-    void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 9>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 9>& sum) const {
         const Vec<P> u = difference(i.extra[0], j.extra[0]);
         const P w = weight(pair, j.value);
         const Vec<P> d = w * pair.d;
@@ -51,7 +51,7 @@ struct Deformation {
 struct Stretching {
     static constexpr int own_extras = 1, extras = 1, sums = 1;
     template <class P>
-    void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 1>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 1>& sum) const {
         const Vec<P> u = difference(i.extra[0], j.extra[0]);
         sum[0] = fma(weight(pair, j.value), dot(u, u), sum[0]);
     }
@@ -66,7 +66,7 @@ struct Force {
     double damping = 0;              ///< D of the sums
 
     template <class P>
-    void operator()(const Pair<P>& pair, const Sample<P, 4>& i, const Sample<P, 4>& j,
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 4>& i, const Sample<P, 4>& j,
                     std::array<P, std::size_t(sums)>& sum) const {
         const Vec<P>& d = pair.d;
         const auto& [ui, xi, yi, zi] = i.extra;
