@@ -16,8 +16,8 @@ TEST(Cantilever, ASlenderOneIsEulersAndAThickOneIsSlower) {
     };
     EXPECT_NEAR(cantilever_frequency({1, 0.002, 1000, m}), slender(0.002), 1e-5 * slender(0.002));
     const double ratio = cantilever_frequency({1, 0.1, 1000, m}) / slender(0.1);
-    EXPECT_LT(ratio, 0.99);
-    EXPECT_GT(ratio, 0.96);
+    EXPECT_LT(ratio, 0.995);   // shear and turning inertia cost it about (H/L)^2
+    EXPECT_GT(ratio, 0.98);
     EXPECT_NEAR(cantilever_shape({1, 0.1, 1000, m}, 1), 1, 1e-12);
     EXPECT_NEAR(cantilever_shape({1, 0.002, 1000, m}, 0.5), 0.33952, 1e-4);   // of the first mode (Euler and Bernoulli)
 }
