@@ -71,14 +71,17 @@ TEST(SolidScene, EnergyIsWorkAndHeldParticlesStay) {
     EXPECT_NEAR(e.kinetic + e.elastic + e.hourglass, e.load_work, 2e-3 * e.load_work);
     EXPECT_EQ(e.constraint_work, 0);
     std::size_t held = 0;
-    for (std::size_t i = 0; i < body.particles().size(); ++i)
-        if (body.particles().constraint[i]) ++held, EXPECT_EQ(body.particles().position[i], body.particles().reference[i]);
+    for (std::size_t i = 0; i < body.particles().size(); ++i) {
+        if (body.particles().constraint[i] == 0) continue;
+        ++held;
+        EXPECT_EQ(body.particles().position[i], body.particles().reference[i]);
+    }
     EXPECT_EQ(held, 6u);
 }
 
-TEST(SolidScene, StepsDoNotDependOnHowFarIsAsked) {
+TEST(SolidScene, ComputedTwiceItIsTheSame) {
     const auto end_of = [](double until) {
-        const auto scene = build_solids(deck::parse_case(block));
+        auto scene = build_solids(deck::parse_case(block));
         while (scene->time < until) step_solids(*scene, until);
         return scene;
     };

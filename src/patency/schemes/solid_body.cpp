@@ -43,6 +43,7 @@ double SolidBody::stable_step() const {
 
 void SolidBody::drift(double dt, double time) {
     SolidParticles& p = particles();
+    time_ = time;
     for_each_index(p.size(), [&](std::size_t i) {
         const Vec3 moved = p.position[i] + dt * p.velocity[i];
         if (p.constraint[i] == 0) {

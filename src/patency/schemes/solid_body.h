@@ -59,7 +59,8 @@ public:
     /// forces, dt apart; for adaptive relaxation, once in every step after compute_force. Zero at first.   THEORY (20.14)
     double find_present_frequency_squared(double dt);
 
-    /// F of the particles where they are now; compute_force does it too. A step leaves F of its middle.
+    /// F of the particles where they are now; compute_force does it too. A step leaves F of its middle. Throws DivergedError
+    /// as compute_force does, at the time of the last drift.
     virtual void compute_deformation() = 0;
     virtual Mat3 deformation(std::size_t i) const = 0;   ///< F as last computed
     Mat3 cauchy(std::size_t i) const;                    ///< stress [Pa] at that deformation
@@ -85,6 +86,7 @@ protected:
 
     Solid& solid_;
     SolidNumerics numerics_;
+    double time_ = 0;   ///< to which the particles drifted [s]
 
 private:
     void kick_constrained(double dt, double time);

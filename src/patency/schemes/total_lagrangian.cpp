@@ -42,11 +42,12 @@ public:
 
     void compute_deformation() override {
         sum_deformation();
-        is_deformed_ = true;
+        for (std::uint32_t i = 0; i < particles().size(); ++i)
+            if (!(determinant(deformation(i)) > 0)) report_inside_out(i, time_);
     }
 
     void compute_force(double time) override {
-        compute_deformation();
+        sum_deformation();
         std::uint32_t inside_out = no_particle;
         for (std::size_t m = 0; m < members_.size(); ++m)
             inside_out = std::min(inside_out, compute_stress(solid_.materials[m], members_[m], input_, particles(), stress_));
@@ -180,6 +181,7 @@ private:
         sum<solid_terms::Deformation>(records, records, {}, [&](std::uint32_t i, const std::array<T, 9>& s) {
             for (std::size_t k = 0; k < 9; ++k) input_.sums[k][i] = s[k];
         });
+        is_deformed_ = true;
     }
 
     template <bool is_damped>
