@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `patency bench flow`: how fast the flow is computed, beside the reference loop, with the answers compared.
+// `patency bench flow|solid`: how fast flow and solids are computed, beside the reference loop, with the answers compared.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "patency/verify/bench_flow.h"
+#include "patency/verify/bench_solid.h"
 
 namespace patency::app {
 
@@ -26,10 +27,12 @@ void print(const BenchResult& r, std::FILE* file) {
     std::fflush(file);
 }
 
-void run(const Options& o) {
+using Bench = std::vector<BenchResult> (*)(const BenchRequest&);
+
+void run(const Options& o, Bench bench) {
     const int threads = o.threads > 0 ? o.threads : omp_get_max_threads();
-    const auto results = run_flow_bench({.threads = threads, .names = o.names, .effort = o.effort,
-                                         .report = [&](const BenchResult& r) { print(r, o.as_json ? stderr : stdout); }});
+    const auto results = bench({.threads = threads, .names = o.names, .effort = o.effort,
+                                .report = [&](const BenchResult& r) { print(r, o.as_json ? stderr : stdout); }});
     if (o.as_json) fmt::print("{}", format_bench(results));
 }
 
@@ -38,13 +41,17 @@ void run(const Options& o) {
 void add_bench_command(CLI::App& program, ExitCode&) {
     CLI::App* bench = program.add_subcommand("bench", "measure the speed, with a reference beside it and the answer checked");
     bench->require_subcommand(1);
-    CLI::App* flow = bench->add_subcommand("flow", "pipes with openings and walls");
-    const auto o = std::make_shared<Options>();
-    flow->add_option("names", o->names, "parts of names: pipe_d16, pipe_d32, two_threads, growth, mixed, double; all if absent");
-    flow->add_option("--threads", o->threads, "how many threads; one per core if absent")->check(CLI::Range(1, 1024));
-    flow->add_option("--effort", o->effort, "how many times more steps, for steadier numbers")->check(CLI::PositiveNumber);
-    flow->add_flag("--json", o->as_json, "print a JSON array");
-    flow->callback([o] { run(*o); });
+    const auto add = [&](const char* name, const char* what, const char* names, Bench measure) {
+        CLI::App* command = bench->add_subcommand(name, what);
+        const auto o = std::make_shared<Options>();
+        command->add_option("names", o->names, names);
+        command->add_option("--threads", o->threads, "how many threads; one per core if absent")->check(CLI::Range(1, 1024));
+        command->add_option("--effort", o->effort, "how many times more steps, for steadier numbers")->check(CLI::PositiveNumber);
+        command->add_flag("--json", o->as_json, "print a JSON array");
+        command->callback([o, measure] { run(*o, measure); });
+    };
+    add("flow", "pipes with openings and walls", "parts of names: pipe_d16, pipe_d32, two_threads, growth, mixed, double; all if absent", run_flow_bench);
+    add("solid", "a block of 200,000 particles", "parts of names: block_mixed, block_double, metal_mixed; all if absent", run_solid_bench);
 }
 
 }  // namespace patency::app

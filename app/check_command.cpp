@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "deck_options.h"
+#include "solid_runner.h"
 #include "patency/stages/build.h"
 #include "patency/stages/plan.h"
 
@@ -20,6 +21,11 @@ std::string readable_time(double seconds) {
 
 void check(const DeckOptions& options) {
     const deck::Case config = options.read();
+    if (!config.solids.empty()) {
+        options.apply_threads(config);
+        fmt::print("{}: the deck is right\n", options.path);
+        return print_solid_plan(config);
+    }
     const auto scene = build_frame(config);
     const FlowPlan plan = plan_flow(*scene, options.apply_threads(config));
     fmt::print("{}: the deck is right\n", options.path);

@@ -45,6 +45,7 @@ Log make_run_log(const OutputFolder& folder, bool goes_on) {
 }
 
 ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
+    if (!config.solids.empty()) throw DeckError("this deck has solids and no blood; compute it by patency solid");
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
     Progress progress = make_progress();

@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "deck_options.h"
 #include "flow_runner.h"
+#include "solid_runner.h"
 #include "patency/io/summary.h"
 #include "patency/stages/estimate_results.h"
 
@@ -39,7 +40,9 @@ Json estimate(const deck::Case& config, const Log& log) {
 ExitCode run(const RunOptions& options) {
     const deck::Case config = options.deck.read();
     const int threads = options.deck.apply_threads(config);
-    const OutputFolder folder(options.out), before(folder.file("before"));
+    const OutputFolder folder(options.out);
+    if (!config.solids.empty()) return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads));
+    const OutputFolder before(folder.file("before"));
     const bool goes_on = !options.fresh && before.has_checkpoint("flow");
     if (!goes_on) folder.clear(), before.clear();
     const Log log = make_run_log(folder, goes_on);
@@ -58,7 +61,7 @@ ExitCode run(const RunOptions& options) {
 }   // namespace
 
 void add_run_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("run", "everything that the deck asks for: the estimate, then the flow");
+    CLI::App* command = program.add_subcommand("run", "everything that the deck asks for: the estimate, then the flow; or solids");
     const auto options = std::make_shared<RunOptions>();
     options->deck.add_to(*command);
     command->add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")->required();

@@ -54,6 +54,37 @@ TEST_F(Commands, a_wrong_command_line_is_2) {
     EXPECT_EQ(patency("--help").exit_code, 0);
 }
 
+TEST_F(Commands, solids_are_computed_and_every_wrong_way_says_so) {
+    const std::string text = R"(version: 1
+solids:
+  - name: block
+    shape: {type: box, from: [0 mm, 0 mm, 0 mm], to: [4 mm, 4 mm, 0 mm]}
+    material: {law: neo_hookean, density: 1000 kg/m^3, young: 1 MPa, poisson: 0.3}
+    velocity: [0 m/s, -1 m/s, 0 m/s]
+contacts: [{solid: block, plane: {point: [0 mm, -0.1 mm, 0 mm], normal: [0, 1, 0]}}]
+numerics: {spacing: 1 mm, duration: 1 ms, solid: {plane_strain: true}}
+output: {interval: 0.5 ms}
+)";
+    const std::string deck = write(text);
+    const Result check = patency("check " + deck);
+    EXPECT_EQ(check.exit_code, 0);
+    EXPECT_NE(check.output.find("16 particles"), std::string::npos) << check.output;
+    const Result run = patency("solid " + deck + " -o " + out());
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_TRUE(fs::exists(folder_ / "out" / "frames" / "block_000002.vtp"));
+    EXPECT_NE(content(folder_ / "out" / "summary.json").find("largest_penetration_m"), std::string::npos);
+    const std::string summary = content(folder_ / "out" / "summary.json"), energies = content(folder_ / "out" / "energies.csv");
+    EXPECT_EQ(patency("run " + deck + " --threads 2 -o " + out()).exit_code, 0);
+    EXPECT_EQ(content(folder_ / "out" / "summary.json"), summary) << "the same numbers for any number of threads";
+    EXPECT_EQ(content(folder_ / "out" / "energies.csv"), energies);
+    EXPECT_EQ(patency("flow " + deck + " -o " + (folder_ / "flow").string()).exit_code, 3);
+    const Result fast = patency("solid " + deck + " --set 'solids.0.velocity=[0 m/s, -400 m/s, 0 m/s]' -o " + out());
+    EXPECT_EQ(fast.exit_code, 5) << fast.output;
+    EXPECT_NE(fast.output.find("inside out at t ="), std::string::npos) << fast.output;
+    EXPECT_TRUE(fs::exists(folder_ / "out" / "offenders.vtp"));
+    EXPECT_FALSE(fs::exists(folder_ / "out" / "summary.json"));
+}
+
 TEST_F(Commands, all_mistakes_of_a_deck_come_at_once_and_are_3) {
     std::string text = ChannelDeck{}.text();
     text.replace(text.find("3.5 mPa s"), 9, "3.5 mmHg ");

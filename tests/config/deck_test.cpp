@@ -57,6 +57,20 @@ TEST(Deck, AStentHasItsMeasuresAndItsPlace) {
     EXPECT_FALSE(parse_case(pipe_deck).stent);
 }
 
+TEST(Deck, SolidsStandWithoutAFlow) {
+    const Case c = parse_case(solid_deck);
+    ASSERT_EQ(c.solids.size(), 2u);
+    EXPECT_EQ(c.solids[0].shape.type, SolidShapeType::cylinder);
+    EXPECT_DOUBLE_EQ(c.solids[0].shape.inner_diameter, 3e-3);
+    EXPECT_NEAR(*c.solids[0].material.fibre_angle, 40 * 3.14159265358979 / 180, 1e-14);
+    EXPECT_EQ(c.solids[0].holds[0].axes, (std::array<bool, 3>{false, false, true}));
+    EXPECT_NEAR(c.solids[0].pressures[0].pressures[1], 13332.24, 0.01);
+    EXPECT_EQ(c.solids[1].material.name, "316L");
+    EXPECT_DOUBLE_EQ(c.contacts[0].friction, 0.1);
+    EXPECT_EQ(c.contacts[1].plane->normal, (Vec3{0, 0, 1}));
+    EXPECT_EQ(c.numerics.solid.relaxation, Relaxation::adaptive);
+}
+
 TEST(Deck, WhatIsWrittenReadsBackToTheIdenticalCase) {
     for (const std::string& deck : valid_decks) {
         const Case c = parse_case(deck, "deck", "/decks/a");

@@ -33,6 +33,31 @@ inline std::string pipe_with(const std::string& part, const std::string& replace
     return text.replace(text.find(part), part.size(), replacement);
 }
 
+inline const std::string solid_deck = R"(version: 1
+case: {name: wall}
+solids:
+  - name: wall
+    shape: {type: cylinder, from: [0 mm, 0 mm, 0 mm], to: [0 mm, 0 mm, 5 mm], diameter: 4 mm, inner_diameter: 3 mm}
+    material: {law: fibre_artery, density: 1100 kg/m^3, shear: 3 kPa, bulk: 300 kPa, fibre_stiffness: 2 kPa, fibre_growth: 0.8,
+               fibre_dispersion: 0.1, fibre_angle: 40 deg}
+    holds:
+      - {low: [-3 mm, -3 mm, -1 mm], high: [3 mm, 3 mm, 0.1 mm], axes: [false, false, true], displacement: [0 mm, 0 mm, 1 mm], ramp: 1 s}
+    pressures: [{face: inner, times: [0 s, 1 s], pressures: [0 mmHg, 100 mmHg]}]
+  - name: pin
+    shape: {type: sphere, centre: [0 mm, 0 mm, 2 mm], diameter: 1 mm}
+    material: {name: 316L}
+    spacing: 0.1 mm
+    velocity: [1 m/s, 0 m/s, 0 m/s]
+contacts:
+  - {solid: pin, with: wall, friction: 0.1}
+  - {solid: wall, plane: {point: [0 mm, 0 mm, -1 mm], normal: [0, 0, 1]}}
+body_force: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]
+numerics:
+  spacing: 0.2 mm
+  duration: 1 s
+  solid: {viscosity: 0.1, relaxation: adaptive}
+)";
+
 inline const std::vector<std::string> valid_decks{
     pipe_deck,
     R"(version: 1
@@ -149,6 +174,7 @@ stent:
   placement: {translation: ["1 mm", "2 mm", "3 mm"], direction: [0, 1, 1], rotation: "0.5 rad"}
 numerics: {spacing: "0.2 mm", duration: "1 s"}
 )",
+    solid_deck,
     R"(version: 1
 geometry:
   network: tree.json

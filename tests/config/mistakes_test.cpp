@@ -53,6 +53,25 @@ TEST(Mistakes, SpacingThatFollowsTheVessel) {
               only("19:21: numerics.smallest_spacing: is more than numerics.largest_spacing, 0.1 mm"));
 }
 
+TEST(Mistakes, OfSolids) {
+    const auto with = [](const std::string& part, const std::string& replacement) {
+        std::string text = solid_deck;
+        return text.replace(text.find(part), part.size(), replacement);
+    };
+    const auto says = [&](const std::string& deck, const std::string& words) {
+        const std::string report = mistakes_in(deck);
+        EXPECT_NE(report.find(words), std::string::npos) << report;
+    };
+    says(solid_deck + "aorta: {pressure: 93 mmHg}\n", "aorta: does not go together with solids");
+    says(with("inner_diameter: 3 mm", "inner_diameter: 4 mm"), "must be less than the diameter");
+    says(with("solid: pin", "solid: pen"), "there is no solid \"pen\"");
+    says(with("name: pin", "name: wall"), "a second \"wall\"; names must differ");
+    says(with("pressures: [0 mmHg, 100 mmHg]", "pressures: [0 mmHg]"), "there must be one for each of times");
+    says(with("high: [3 mm, 3 mm, 0.1 mm]", "high: [3 mm, 3 mm, -2 mm]"), "is below low");
+    says(with("{name: 316L}", "{name: 316L, law: yeoh}"), "stands beside name");
+    says(with("normal: [0, 0, 1]", "normal: [0, 0, 0]"), "must not be zero");
+}
+
 TEST(Mistakes, MissingRecord) {
     EXPECT_EQ(mistakes_in(pipe_with("blood:\n  density: \"1060 kg/m^3\"\n  viscosity: \"3.5 mPa s\"\n", "")),
               only("1:1: blood is missing: the blood's properties; it needs density"));

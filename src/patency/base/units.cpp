@@ -47,6 +47,7 @@ constexpr std::array table{
     Unit{pressure, "Pa", 1, 1},
     Unit{pressure, "kPa", 1e3, 1},
     Unit{pressure, "MPa", 1e6, 1},
+    Unit{pressure, "GPa", 1e9, 1},
     Unit{pressure, "mmHg|mm Hg", mmHg, 1},
     Unit{pressure, "bar", 1e5, 1},
     Unit{pressure, "atm", 101325, 1},

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "patency/base/vec.h"
+#include "patency/config/solid_deck.h"
 
 namespace patency::deck {
 
@@ -300,7 +301,8 @@ struct Numerics {
     int threads = 0;                          ///< 0: all
     PressureReference pressure_reference = PressureReference::moving;
     int seed = 1;
-    bool follows_vessel() const { return scheme == SchemeName::cells && across; }
+    SolidSettings solid;
+    bool follows_vessel() const { return across.has_value(); }
     bool operator==(const Numerics&) const = default;
 };
 
@@ -341,11 +343,13 @@ struct Case {
     Geometry geometry;
     Blood blood;
     Wall wall;
-    Vec3 body_force;   ///< m/s^2
+    Vec3 body_force;   ///< m/s^2, of blood or solids
     std::map<std::string, Opening> openings;
     Aorta aorta;
     Bed bed;
     std::optional<Stent> stent;
+    std::vector<SolidDeck> solids;        ///< with them there is no geometry and no blood
+    std::vector<ContactDeck> contacts;
     Initial initial;
     Numerics numerics;
     Output output;

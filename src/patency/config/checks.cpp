@@ -22,6 +22,7 @@ public:
         check_blood();
         check_openings();
         check_stent();
+        check_solids();
         check_initial();
         check_numerics();
         check_output();
@@ -131,6 +132,7 @@ private:
         const Numerics& n = case_.numerics;
         expect(!n.across || n.scheme == SchemeName::cells, "numerics.across",
                "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing", {"numerics.scheme"});
+        expect(!n.across || case_.solids.empty(), "numerics.across", "is for blood; solids need numerics.spacing");
         expect(n.across || !n.smallest_spacing, "numerics.smallest_spacing", "means something with numerics.across only");
         expect(n.across || !n.largest_spacing, "numerics.largest_spacing", "means something with numerics.across only");
         if (n.smallest_spacing && n.largest_spacing)
@@ -151,6 +153,51 @@ private:
                    double_quoted(*stent.unit) + " is not one of " + join(known, ", ", " or "));
         }
         if (stent.placement) expect(norm(stent.placement->direction) > 0, "stent.placement.direction", "must not be zero");
+    }
+
+    void check_solids() {
+        check_names("solids", case_.solids);
+        for (std::size_t i = 0; i < case_.solids.size(); ++i) {
+            const SolidDeck& solid = case_.solids[i];
+            const std::string path = "solids." + std::to_string(i) + ".";
+            check_solid_shape(solid.shape, path + "shape.");
+            for (std::size_t k = 0; k < solid.pressures.size(); ++k) {
+                const FacePressure& p = solid.pressures[k];
+                const std::string key = path + "pressures." + std::to_string(k) + ".";
+                expect(p.pressures.size() == p.times.size(), key + "pressures", "there must be one for each of times", {key + "times"});
+                check_increasing(key + "times", p.times, "s");
+            }
+            for (std::size_t k = 0; k < solid.holds.size(); ++k) {
+                const Hold& h = solid.holds[k];
+                const std::string key = path + "holds." + std::to_string(k) + ".";
+                expect(h.low.has_value() == h.high.has_value(), path + "holds." + std::to_string(k), "low and high belong together");
+                if (h.low && h.high)
+                    expect(h.low->x <= h.high->x && h.low->y <= h.high->y && h.low->z <= h.high->z, key + "high", "is below low", {key + "low"});
+            }
+        }
+        const auto is_known = [&](const std::string& name) {
+            return std::any_of(case_.solids.begin(), case_.solids.end(), [&](const SolidDeck& s) { return s.name == name; });
+        };
+        for (std::size_t i = 0; i < case_.contacts.size(); ++i) {
+            const ContactDeck& contact = case_.contacts[i];
+            const std::string path = "contacts." + std::to_string(i) + ".";
+            expect(is_known(contact.solid), path + "solid", "there is no solid " + double_quoted(shortened(contact.solid)));
+            if (contact.with)
+                expect(is_known(*contact.with), path + "with", "there is no solid " + double_quoted(shortened(*contact.with)));
+            if (contact.plane) expect(norm(contact.plane->normal) > 0, path + "plane.normal", "must not be zero");
+        }
+    }
+
+    void check_solid_shape(const SolidShape& s, const std::string& path) {
+        const bool planar = case_.numerics.solid.plane_strain;
+        if (s.type == SolidShapeType::box)
+            expect(s.to.x > s.from.x && s.to.y > s.from.y && (planar || s.to.z > s.from.z), path + "to", "must lie above `from` on every axis",
+                   {path + "from"});
+        if (s.type == SolidShapeType::cylinder) {
+            expect(planar || norm(s.to - s.from) > 0, path + "to", "is the same point as `from`", {path + "from"});
+            expect(s.inner_diameter < s.diameter, path + "inner_diameter", "must be less than the diameter", {path + "diameter"});
+        }
+        if (s.type == SolidShapeType::sphere) expect(!planar, path + "type", "is not planar; use a cylinder along z with numerics.solid.plane_strain");
     }
 
     void check_blood() {

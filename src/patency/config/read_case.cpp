@@ -64,6 +64,7 @@ private:
     std::optional<bool> holds(const std::optional<Condition>& condition) const {
         if (!condition) return false;
         if (condition->key.empty()) return true;
+        if (condition->absent) return node_.find(condition->key) == nullptr;
         const auto word = word_at(condition->key);
         if (!word) return {};
         return std::find(condition->words.begin(), condition->words.end(), *word) != condition->words.end();
@@ -79,7 +80,8 @@ private:
             if (may == true && holds(row.need) == true) report_missing(row, scope);
         } else if (may == false) {
             const std::vector<std::string>& words_of_key = row.only->words;
-            scope.mistake(*given, "belongs to " + row.only->key + " " + join(words_of_key, ", ", " or ") + ", not to " +
+            if (row.only->absent) scope.mistake(*given, "does not go together with " + row.only->key);
+            else scope.mistake(*given, "belongs to " + row.only->key + " " + join(words_of_key, ", ", " or ") + ", not to " +
                                       *word_at(row.only->key));
         } else {
             row.read(*given, scope, record);

@@ -61,6 +61,7 @@ const Table& table_of<Numerics>() {
             row(&Numerics::threads, {.key = "threads", .help = "threads; 0 is one per core", .range = between(0, 1024)}),
             row(&Numerics::pressure_reference, {.key = "pressure_reference",
                                                 .help = "whether pressure is solved above a moving level"}),
+            row(&Numerics::solid, {.key = "solid", .help = "how solids are computed"}),
             row(&Numerics::seed, {.key = "seed", .help = "of random numbers", .range = between(0, 2147483647)}),
         },
         {{.keys = {"spacing", "across"}, .required = true}, {.keys = {"sound_speed", "sound_speed_factor"}, .required = false}});
@@ -117,20 +118,23 @@ const Table& table_of<Run>() {
 
 template <>
 const Table& table_of<Case>() {
+    const Condition flow = without("solids");
     static const Table table = make_table<Case>("A case.", {
         row(&Case::version, {.key = "version", .help = "the version of the deck's language", .range = between(1, 1),
                              .example = "1", .need = always}),
         row(&Case::about, {.key = "case", .help = "what the case is"}),
-        row(&Case::geometry, {.key = "geometry", .help = "the lumen", .need = always}),
-        row(&Case::blood, {.key = "blood", .help = "the blood's properties", .need = always}),
-        row(&Case::wall, {.key = "wall", .help = "the vessel wall"}),
-        row(&Case::body_force, {.key = "body_force", .help = "acceleration of the blood, such as gravity",
+        row(&Case::geometry, {.key = "geometry", .help = "the lumen", .only = flow, .need = flow}),
+        row(&Case::blood, {.key = "blood", .help = "the blood's properties", .only = flow, .need = flow}),
+        row(&Case::wall, {.key = "wall", .help = "the vessel wall", .only = flow}),
+        row(&Case::body_force, {.key = "body_force", .help = "acceleration of blood or solids, such as gravity",
                                 .unit = "m/s^2", .range = between(-1e4, 1e4)}),
-        row(&Case::openings, {.key = "openings", .help = "what happens at each opening, by its name"}),
-        row(&Case::aorta, {.key = "aorta", .help = "the aorta, the reference of FFR"}),
-        row(&Case::bed, {.key = "bed", .help = "the small vessels behind the outlets"}),
-        row(&Case::stent, {.key = "stent", .help = "the stent and where it is"}),
-        row(&Case::initial, {.key = "initial", .help = "the blood at the start"}),
+        row(&Case::openings, {.key = "openings", .help = "what happens at each opening, by its name", .only = flow}),
+        row(&Case::aorta, {.key = "aorta", .help = "the aorta, the reference of FFR", .only = flow}),
+        row(&Case::bed, {.key = "bed", .help = "the small vessels behind the outlets", .only = flow}),
+        row(&Case::stent, {.key = "stent", .help = "the stent and where it is", .only = flow}),
+        row(&Case::solids, {.key = "solids", .help = "solids by themselves, instead of a flow"}),
+        row(&Case::contacts, {.key = "contacts", .help = "which solids touch"}),
+        row(&Case::initial, {.key = "initial", .help = "the blood at the start", .only = flow}),
         row(&Case::numerics, {.key = "numerics", .help = "how it is computed", .need = always}),
         row(&Case::output, {.key = "output", .help = "what is written"}),
         row(&Case::runs, {.key = "runs", .help = "variants of the deck"}),

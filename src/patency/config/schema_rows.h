@@ -10,6 +10,8 @@ namespace patency::deck {
 
 inline Condition where(std::string key, std::vector<std::string> words_of_key) { return {std::move(key), std::move(words_of_key)}; }
 
+inline Condition without(std::string key) { return {.key = std::move(key), .absent = true}; }
+
 inline constexpr double largest_length = 10;   // m; a vessel is millimetres, a bench model a metre
 inline constexpr double largest_speed = 100;   // m/s
 

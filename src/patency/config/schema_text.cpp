@@ -90,6 +90,7 @@ std::string help_text(const Row& row) {
 // {"if": the condition, "then": consequence}; the consequence alone if the condition always holds.
 Json conditional(const std::optional<Condition>& condition, const Table& table, Json consequence) {
     if (!condition || condition->key.empty()) return consequence;
+    if (condition->absent) return {{"if", {{"not", {{"required", {condition->key}}}}}}, {"then", std::move(consequence)}};
     Json test{{"properties", {{condition->key, {{"enum", condition->words}}}}}};
     const auto standard = table.standard(*table.find(condition->key), {});
     const bool holds_without = standard && std::find(condition->words.begin(), condition->words.end(), standard->text) !=
@@ -156,7 +157,10 @@ std::string form_text(const Form& form, const Row& row) {
     return {};
 }
 
-std::string condition_text(const Condition& condition) { return condition.key + " " + join(condition.words, ", ", " or "); }
+std::string condition_text(const Condition& condition) {
+    if (condition.absent) return "a deck without " + condition.key;
+    return condition.key + " " + join(condition.words, ", ", " or ");
+}
 
 // "required", "required for type tube", "default 1.3", "for type box; default false"
 std::string presence_text(const Row& row, const Table& table) {

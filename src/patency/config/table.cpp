@@ -95,6 +95,7 @@ Node write_record(const Table& table, const void* record, const Scope& scope) {
         if (const auto named = find_dimension(type->write(record, scope)->text)) inner.signal = named;
     const auto may_stand = [&](const Row& row) {
         if (!row.only) return true;
+        if (row.only->absent) return !table.find(row.only->key)->write(record, inner);
         const std::string word = table.find(row.only->key)->write(record, inner)->text;
         return std::find(row.only->words.begin(), row.only->words.end(), word) != row.only->words.end();
     };

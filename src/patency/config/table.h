@@ -45,10 +45,11 @@ inline Range at_least(double low) { return {.low = low}; }
 inline Range between(double low, double high) { return {.low = low, .high = high}; }
 inline Range above_up_to(double low, double high) { return {.low = low, .high = high, .without_low = true}; }
 
-/// "where `key` of the same record is one of `words`"; without a key it always holds.
+/// "where `key` of the same record is one of `words`", or "where there is no `key`"; without a key it always holds.
 struct Condition {
     std::string key{};
     std::vector<std::string> words{};
+    bool absent = false;
 };
 inline const Condition always{};
 

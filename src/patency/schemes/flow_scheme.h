@@ -12,6 +12,7 @@
 #include "patency/bodies/wall.h"
 #include "patency/kernel/kernel.h"
 #include "patency/pairs/sum_over_neighbours.h"
+#include "patency/schemes/precision.h"
 
 namespace patency {
 
@@ -65,8 +66,6 @@ struct FlowDomain {
     /// Distance to the nearest wall surface, negative inside the blood [m].
     std::function<double(const Vec3&)> distance;
 };
-
-enum class Precision { mixed, double_precision };
 
 std::unique_ptr<FlowScheme> make_flow_scheme(Precision precision, const FlowDomain& domain,
                                              const FluidMaterial& material, const FlowNumerics& numerics);

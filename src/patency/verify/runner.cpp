@@ -51,7 +51,7 @@ public:
 
     CaseReport run() {
         std::map<std::string, RunData> runs;
-        if (case_.measure || case_.measure_cells) {
+        if (case_.measure || case_.measure_cells || case_.measure_solids) {
             make_folder(folder());
             const fs::path deck = request_.decks / (case_.name + ".yaml");
             for (const deck::NamedCase& run : deck::read_runs(deck, request_.settings))
@@ -119,8 +119,8 @@ private:
                 throw Error(ExitCode::interrupted, "the verification was interrupted; the same command goes on with it");
         };
         try {
-            if (case_.measure_cells) {
-                case_.measure_cells(named.resolved, named.name, request_.interrupted, data);
+            if (const auto& measure = case_.measure_cells ? case_.measure_cells : case_.measure_solids) {
+                measure(named.resolved, named.name, request_.interrupted, data);
                 stop_if_asked();
             } else {
                 measure_particles(named, stop_if_asked, data);

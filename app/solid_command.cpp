@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency solid: solids by themselves.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.h"
+#include "deck_options.h"
+#include "solid_runner.h"
+
+namespace patency::app {
+
+namespace {
+
+struct SolidOptions {
+    DeckOptions deck;
+    std::string out;
+};
+
+ExitCode run(const SolidOptions& options) {
+    const deck::Case config = options.deck.read();
+    const int threads = options.deck.apply_threads(config);
+    const OutputFolder folder(options.out);
+    return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads));
+}
+
+}   // namespace
+
+void add_solid_command(CLI::App& program, ExitCode& exit_code) {
+    CLI::App* command = program.add_subcommand("solid", "compute solids alone: how they deform, yield and touch");
+    const auto options = std::make_shared<SolidOptions>();
+    options->deck.add_to(*command);
+    command->add_option("-o,--out", options->out, "the folder for the results")->required();
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}   // namespace patency::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a point that has gone into a surface feels: a push out of it in proportion to the depth, and Coulomb's friction with
+// a stick that is a spring.                                                               THEORY (21.6) to (21.8)
+#pragma once
+
+#include "patency/base/vec.h"
+
+namespace patency {
+
+/// The share of m*/dt^2 that a push may have: it then adds a twentieth to what an explicit step bears.
+inline constexpr double penalty_share = 0.1;
+
+/// Stiffness [N/m] for the joint mass m* [kg] of what touches, and the step dt [s] it is to be stable for.  THEORY (21.6)
+inline double penalty_stiffness(double mass, double dt) { return penalty_share * mass / (dt * dt); }
+
+struct FrictionState {
+    Vec3 force;        ///< on the point, along the surface [N]
+    Vec3 stick;        ///< what the spring is stretched by, after the step [m]
+    double loss = 0;   ///< work of sliding in the step [J]
+};
+
+/// stick: before the step [m]; slide: how the point moved against the surface in the step [m]; normal: of the surface, unit;
+/// push: its normal force, >= 0 [N]; stiffness of the spring [N/m].                                        THEORY (21.8)
+inline FrictionState friction(const Vec3& stick, const Vec3& slide, const Vec3& normal, double push, double stiffness, double coefficient) {
+    const Vec3 stretched = stick + slide;
+    const Vec3 trial = stretched - dot(stretched, normal) * normal;   // the surface may have turned
+    const double length = norm(trial), most = coefficient * push / stiffness;
+    if (length <= most) return {-stiffness * trial, trial, 0};
+    const Vec3 kept = (most / length) * trial;
+    return {-stiffness * kept, kept, stiffness * most * (length - most)};
+}
+
+}   // namespace patency

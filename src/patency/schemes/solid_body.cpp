@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/schemes/solid_body.h"
+
+#include <cmath>
+
+#include "patency/base/parallel.h"
+
+namespace patency {
+
+namespace {
+
+/// What stands only on the axes that are held, or only on the others.
+Vec3 masked(const Vec3& v, const std::array<bool, 3>& axes) { return {axes[0] ? v.x : 0, axes[1] ? v.y : 0, axes[2] ? v.z : 0}; }
+
+Vec3 displacement_of(const Constraint& c, const Vec3& reference, double time) {
+    return c.displacement ? c.displacement(reference, time) : Vec3{};
+}
+
+Fibres<double> fibres_of(const SolidParticles& p, std::size_t i) { return {p.first_fibre[i], p.second_fibre[i]}; }
+
+struct Powers {
+    double load, drag;
+};
+
+}   // namespace
+
+double SolidBody::stable_step() const {
+    const SolidParticles& p = particles();
+    const double fastest = largest_of(p.size(), [&](std::size_t i) {
+        const SolidMaterial& m = material(i);
+        const Mat3 F = deformation(i);
+        const double modulus = std::visit(
+            [&](const auto& law) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(law)>, FibreArtery>) return law.wave_modulus(F, fibres_of(p, i));
+                else return law.wave_modulus(F);
+            },
+            m.law);
+        return modulus / m.density;
+    });
+    const double h = numerics_.smoothing_ratio * numerics_.spacing;
+    return numerics_.cfl * h / (std::sqrt(fastest) * (1 + numerics_.viscosity));
+}
+
+void SolidBody::drift(double dt, double time) {
+    SolidParticles& p = particles();
+    time_ = time;
+    for_each_index(p.size(), [&](std::size_t i) {
+        const Vec3 moved = p.position[i] + dt * p.velocity[i];
+        if (p.constraint[i] == 0) {
+            p.position[i] = moved;
+            return;
+        }
+        const Constraint& c = solid_.constraints[std::size_t(p.constraint[i] - 1)];
+        const Vec3 place = p.reference[i] + displacement_of(c, p.reference[i], time);
+        p.position[i] = moved + masked(place - moved, c.held);
+    });
+    write_records();
+}
+
+void SolidBody::kick(double dt, double time, double drag) {
+    SolidParticles& p = particles();
+    const double keep = (1 - 0.5 * drag * dt) / (1 + 0.5 * drag * dt), push = dt / (1 + 0.5 * drag * dt);
+    const Powers powers = reduce(
+        p.size(), Powers{0, 0},
+        [&](std::size_t i) {
+            if (p.constraint[i] != 0) return Powers{0, 0};
+            const Vec3 before = p.velocity[i], after = keep * before + (push / p.mass[i]) * (p.force[i] + p.load[i]);
+            const Vec3 middle = 0.5 * (before + after);
+            p.velocity[i] = after;
+            return Powers{dot(p.load[i], middle), drag * p.mass[i] * dot(middle, middle)};
+        },
+        [](const Powers& a, const Powers& b) { return Powers{a.load + b.load, a.drag + b.drag}; });
+    load_work_ += dt * powers.load;
+    drag_ += dt * powers.drag;
+    kick_constrained(dt, time);
+    if (numerics_.viscosity > 0) viscous_ += dt * viscous_power();
+}
+
+/// Few particles, one after another: their reactions add up in one order.
+void SolidBody::kick_constrained(double dt, double time) {
+    SolidParticles& p = particles();
+    for (std::size_t k = 0; k < constrained_.size(); ++k) {
+        const Constraint& c = solid_.constraints[k];
+        for (const std::uint32_t i : constrained_[k]) {
+            const Vec3 before = p.velocity[i], total = p.force[i] + p.load[i];
+            const Vec3 way = displacement_of(c, p.reference[i], time + dt) - displacement_of(c, p.reference[i], time);
+            const Vec3 free = before + (dt / p.mass[i]) * total;
+            const Vec3 after = free + masked(way / dt - free, c.held);
+            const Vec3 impulse = p.mass[i] * (after - before) - dt * total;   // on the held axes; zero on the others
+            p.velocity[i] = after;
+            reactions_[k] += impulse;
+            load_work_ += 0.5 * dt * dot(p.load[i], before + after);
+            constraint_work_ += 0.5 * dot(impulse, before + after);
+        }
+    }
+}
+
+double SolidBody::find_present_frequency_squared(double dt) {
+    SolidParticles& p = particles();
+    const bool is_first = old_force_.empty();
+    old_force_.resize(p.size());
+    double stiffness = 0, mass = 0;
+    if (!is_first) {
+        stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(p.velocity[i], p.force[i] - old_force_[i]); }) / dt;
+        mass = sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(p.velocity[i], p.velocity[i]); });
+    }
+    for_each_index(p.size(), [&](std::size_t i) { old_force_[i] = p.force[i]; });
+    return mass > 0 && stiffness > 0 ? stiffness / mass : 0.0;
+}
+
+Mat3 SolidBody::cauchy(std::size_t i) const {
+    const SolidParticles& p = particles();
+    const Mat3 F = deformation(i);
+    const Mat3 tau = std::visit(
+        [&](const auto& law) {
+            using Law = std::decay_t<decltype(law)>;
+            if constexpr (std::is_same_v<Law, FibreArtery>) return law.kirchhoff(F, fibres_of(p, i));
+            else if constexpr (std::is_same_v<Law, J2Plastic>) return law.stress(F, {p.inverse_plastic[i], p.plastic_strain[i]}).kirchhoff;
+            else return law.kirchhoff(F);
+        },
+        material(i).law);
+    return (1 / determinant(F)) * tau;
+}
+
+SolidEnergy SolidBody::energy() {
+    compute_deformation();
+    const SolidParticles& p = particles();
+    const auto elastic = [&](std::size_t i) {
+        const Mat3 F = deformation(i);
+        return std::visit(
+            [&](const auto& law) {
+                using Law = std::decay_t<decltype(law)>;
+                if constexpr (std::is_same_v<Law, FibreArtery>) return law.energy(F, fibres_of(p, i));
+                else if constexpr (std::is_same_v<Law, J2Plastic>) return law.energy(F, {p.inverse_plastic[i], p.plastic_strain[i]});
+                else return law.energy(F);
+            },
+            material(i).law);
+    };
+    const auto flow = [&](std::size_t i) {
+        const auto* metal = std::get_if<J2Plastic>(&material(i).law);
+        return metal ? metal->hardening.work(p.plastic_strain[i]) : 0.0;
+    };
+    SolidEnergy e;
+    e.kinetic = sum_of(p.size(), [&](std::size_t i) { return 0.5 * p.mass[i] * dot(p.velocity[i], p.velocity[i]); });
+    e.elastic = sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * elastic(i); });
+    e.plastic = sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * flow(i); });
+    e.hourglass = hourglass_energy();
+    e.viscous = viscous_;
+    e.drag = drag_;
+    e.load_work = load_work_;
+    e.constraint_work = constraint_work_;
+    return e;
+}
+
+void SolidBody::find_constrained() {
+    constrained_.assign(solid_.constraints.size(), {});
+    reactions_.assign(solid_.constraints.size(), Vec3{});
+    for (std::size_t i = 0; i < particles().size(); ++i)
+        if (particles().constraint[i] != 0) constrained_.at(std::size_t(particles().constraint[i] - 1)).push_back(std::uint32_t(i));
+}
+
+}   // namespace patency

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// From deformation to stress, particle by particle: the laws of a body's materials applied to the sums over neighbours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "patency/bodies/solid.h"
+#include "patency/schemes/records.h"
+
+namespace patency {
+
+/// A symmetric matrix per particle, in columns: xx, yy, zz, xy, xz, yz.
+template <class T>
+using SymColumns = std::array<AlignedVector<T>, 6>;
+
+/// What the stress of a body is made of, by particle.
+template <class T>
+struct StressInput {
+    std::array<AlignedVector<T>, 9> sums;   ///< sum w (u_i - u_j) d^T, by rows, in units of the loop
+    SymColumns<T> correction;               ///< B, per unit of distance squared
+    AlignedVector<T> hourglass;             ///< c [Pa per unit of distance squared]
+    double displacement_scale = 1;          ///< the unit of displacements in that of distances
+};
+
+/// The stress of one material's particles for the force loop, A = c (F - 1) - P B, into the first three places of the
+/// three quads of each, THEORY (20.8); plastic particles take their step. Returns the first particle that is inside out
+/// (det F <= 0, or no number), or no_particle.
+template <class T>
+std::uint32_t compute_stress(const SolidMaterial& material, const std::vector<std::uint32_t>& members,
+                             const StressInput<T>& input, SolidParticles& particles,
+                             std::array<AlignedVector<Quad<T>>, 3>& stress);
+
+inline constexpr std::uint32_t no_particle = UINT32_MAX;
+
+/// F of particle i.                                                                                    THEORY (20.3)
+template <class T>
+Mat3 deformation_gradient(const StressInput<T>& input, std::size_t i);
+
+}   // namespace patency

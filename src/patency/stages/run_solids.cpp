@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/run_solids.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/io/csv.h"
+#include "patency/io/pvd.h"
+#include "patency/io/summary.h"
+#include "patency/stages/solid_output.h"
+#include "patency/stages/stopwatch.h"
+
+namespace patency {
+
+namespace {
+
+constexpr int rows_of_energies = 200;   // over the duration, where the deck names no interval
+
+class SolidJob {
+public:
+    SolidJob(const deck::Case& config, const SolidStage& stage) : config_(config), stage_(stage) {
+        deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+        scene_ = build_solids(config);
+        for (const auto& part : scene_->system.parts) {
+            const ElasticModuli m = part->solid.materials[0].moduli();
+            say(fmt::format("{}: {} particles; E {:.4g} Pa, nu {:.4g}, G {:.4g} Pa, K {:.4g} Pa", part->name, part->body->particles().size(), m.young(),
+                            m.poisson(), m.shear, m.bulk));
+            series_.emplace_back(stage.folder.file(part->name + ".pvd"));
+        }
+        say(fmt::format("stable step {:.4g} s", stable_step(scene_->system)));
+        energies_.emplace(stage.folder.file("energies.csv"),
+                          std::vector<std::string>{"time_s", "kinetic_j", "elastic_j", "hourglass_j", "plastic_j", "contact_j", "viscous_loss_j",
+                                                   "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j"});
+    }
+
+    bool run() {
+        try {
+            return advance();
+        } catch (const DivergedError& error) {
+            write_polydata(stage_.folder.file("offenders.vtp"), remains(), {.time = scene_->time, .non_finite = NonFinite::allow});
+            throw DivergedError(fmt::format("{}; the solids as they were are in offenders.vtp", error.what()));
+        }
+    }
+
+private:
+    void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
+
+    bool advance() {
+        const double end = config_.numerics.duration, interval = config_.output.interval.value_or(end), row = std::min(interval, end / rows_of_energies);
+        write_row();
+        if (config_.output.interval) write_frames();
+        for (double frame = interval, next = row; scene_->time < end;) {
+            const double until = std::min({frame, next, end});
+            while (scene_->time < until) {
+                step_solids(*scene_, until);
+                if (stage_.progress) stage_.progress->update(progress());
+                if (stage_.interrupted && stage_.interrupted()) {
+                    say(fmt::format("interrupted at {:.6g} s", scene_->time));
+                    return false;
+                }
+            }
+            if (until >= next || until == end) write_row(), next = row * (std::floor(until / row * (1 + 1e-12)) + 1);
+            if (until >= frame || until == end) write_frames(), frame = interval * (std::floor(until / interval * (1 + 1e-12)) + 1);
+        }
+        if (stage_.progress) stage_.progress->finish(progress());
+        write_summary(stage_.folder.file("summary.json"), solid_summary(*scene_));
+        write_summary(stage_.folder.file("timing.json"), timing());
+        say(fmt::format("done: {} steps in {:.1f} s", scene_->steps, watch_.wall()));
+        return true;
+    }
+
+    ProgressState progress() const { return {.stage = "solids", .fraction = scene_->time / config_.numerics.duration, .time = scene_->time, .step = scene_->steps}; }
+
+    void write_row() {
+        SolidEnergy sum;
+        ContactReport contact;
+        for (auto& part : scene_->system.parts) {
+            const SolidEnergy e = part->body->energy();
+            sum.kinetic += e.kinetic, sum.elastic += e.elastic, sum.hourglass += e.hourglass, sum.plastic += e.plastic;
+            sum.viscous += e.viscous, sum.drag += e.drag, sum.load_work += e.load_work, sum.constraint_work += e.constraint_work;
+        }
+        for (const auto& c : scene_->system.contacts) {
+            const ContactReport r = c->report();
+            contact.energy += r.energy, contact.friction_loss += r.friction_loss;
+        }
+        energies_->write_row({scene_->time, sum.kinetic, sum.elastic, sum.hourglass, sum.plastic, contact.energy, sum.viscous, sum.drag,
+                              contact.friction_loss, sum.load_work, sum.constraint_work});
+    }
+
+    void write_frames() {
+        for (std::size_t k = 0; k < series_.size(); ++k) {
+            SolidPart& part = *scene_->system.parts[k];
+            const auto file = frame_file(part.name, series_[k].size());
+            write_polydata(stage_.folder.root() / file, solid_picture(part), {.time = scene_->time});
+            series_[k].add(scene_->time, file);
+        }
+    }
+
+    PolyData remains() const {
+        PolyData data;
+        PointArray velocity{"velocity", "m/s", 3}, volume{"volume_ratio", "1", 1};
+        for (const auto& part : scene_->system.parts) {
+            const SolidParticles& p = part->body->particles();
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                data.points.push_back(p.position[i]);
+                velocity.values.insert(velocity.values.end(), {p.velocity[i].x, p.velocity[i].y, p.velocity[i].z});
+                volume.values.push_back(determinant(part->body->deformation(i)));
+            }
+        }
+        data.arrays = {velocity, volume};
+        return data;
+    }
+
+    nlohmann::ordered_json timing() const {
+        return {{"machine", machine_name()}, {"threads", omp_get_max_threads()}, {"solids", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}}}};
+    }
+
+    const deck::Case& config_;
+    SolidStage stage_;
+    Stopwatch watch_;
+    std::unique_ptr<SolidScene> scene_;
+    std::vector<PvdWriter> series_;
+    std::optional<CsvWriter> energies_;
+};
+
+}   // namespace
+
+bool run_solids(const deck::Case& config, const SolidStage& stage) { return SolidJob(config, stage).run(); }
+
+}   // namespace patency

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contact of surfaces: the push is the slope of its energy, equal and opposite, without stand-off; parts of one body.
+#include "patency/bodies/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "patency/bodies/closest_point.h"
+#include "patency/bodies/solid_shape.h"
+
+using namespace patency;
+
+namespace {
+
+struct Body {
+    Solid solid;
+    std::unique_ptr<SolidSurface> surface;
+
+    Body(const SolidFill& fill, double spacing, bool planar) {
+        solid.materials = {{1000, NeoHookean{1, 1}}};
+        place_particles(solid, fill.places, 0);
+        for (std::size_t i = 0; i < solid.particles.size(); ++i) {
+            solid.particles.volume[i] = fill.volumes[i];
+            solid.particles.mass[i] = 1000 * fill.volumes[i];
+        }
+        surface = std::make_unique<SolidSurface>(fill.surface, solid.particles, 2.3 * spacing, planar);
+    }
+    void move(const Vec3& by) {
+        for (Vec3& x : solid.particles.position) x += by;
+        surface->follow(solid.particles);
+    }
+    Vec3 load() {
+        for (Vec3& f : solid.particles.load) f = {};
+        surface->push(solid.particles);
+        Vec3 sum{};
+        for (const Vec3& f : solid.particles.load) sum += f;
+        return sum;
+    }
+    Vec3 torque() const {
+        Vec3 sum{};
+        for (std::size_t i = 0; i < solid.particles.size(); ++i) sum += cross(solid.particles.position[i], solid.particles.load[i]);
+        return sum;
+    }
+};
+
+constexpr double spacing = 1e-3, step = 1e-5;
+
+class Contacts : public ::testing::TestWithParam<bool> {
+protected:
+    // A round body pushed into a block of a finer spacing, off its middle.
+    bool planar = GetParam();
+    Body block{fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, 0.7 * spacing, planar), 0.7 * spacing, planar};
+    Body ball{planar ? fill_cylinder({0.4e-3, 4e-3, 0}, {0, 0, 0}, 0, 4e-3, spacing, true) : fill_sphere({0.4e-3, 4e-3, 0.3e-3}, 4e-3, spacing), spacing, planar};
+};
+INSTANTIATE_TEST_SUITE_P(Surface, Contacts, ::testing::Values(true, false));
+
+}   // namespace
+
+TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .step = step});
+    EXPECT_EQ(contact->report().touching, 0u) << "before anything was looked at";
+    block.move({}), ball.move({0.1e-3, -0.3e-3, 0.05e-3});
+    contact->add_forces(0);
+    const Vec3 on_block = block.load(), on_ball = ball.load();
+    const ContactReport report = contact->report();
+    EXPECT_GT(report.touching, 1u);
+    EXPECT_GT(on_ball.y, 0) << "pushed out of the block";
+    EXPECT_LT(norm(on_block + on_ball), 1e-14 * norm(on_ball));
+    EXPECT_LT(norm(block.torque() + ball.torque()), 1e-13 * norm(on_ball) * 5e-3);
+    EXPECT_LT(norm(report.force - on_block), 1e-13 * norm(on_ball));
+    EXPECT_NEAR(report.deepest, 0.3e-3, 0.2e-3);
+    const auto energy_at = [&](double y) {
+        block.move({}), ball.move({0, y, 0});
+        contact->add_forces(0);
+        return contact->report().energy;
+    };
+    const double d = 1e-9, up = energy_at(d), down = energy_at(-2 * d);
+    EXPECT_NEAR(-(up - down) / (2 * d), on_ball.y, 1e-5 * on_ball.y);
+}
+
+TEST_P(Contacts, NothingStandsOff) {
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .step = step});
+    block.move({}), ball.move({0, 1e-6, 0});
+    contact->add_forces(0);
+    EXPECT_EQ(contact->report().touching, 0u);
+}
+
+TEST_P(Contacts, FrictionOpposesSlidingAndMomentumIsKept) {
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .step = step});
+    block.move({}), ball.move({0, -0.2e-3, 0});
+    for (Vec3& v : ball.solid.particles.velocity) v = {3, 0, 0};
+    ball.move({}), block.move({});
+    contact->add_forces(1e-3);   // far beyond the bound
+    const Vec3 on_block = block.load(), on_ball = ball.load();
+    EXPECT_LT(on_ball.x, 0);
+    EXPECT_LT(norm(on_block + on_ball), 1e-14 * norm(on_ball));
+    EXPECT_GT(contact->report().friction_loss, 0);
+    // Normals are tilted over the round face: the sum of frictions is a little less than mu times that of pushes.
+    EXPECT_NEAR(-on_ball.x / on_ball.y, 0.3, 0.06);
+}
+
+TEST(PlaneContact, PushesOutWhatIsBehind) {
+    Body block(fill_box({0, 0, 0}, {5e-3, 4e-3, 0}, spacing, true), spacing, true);
+    const auto contact = make_plane_contact(*block.surface, {0, 0.1e-3, 0}, {0, 1, 0}, {.friction = 0, .step = step});
+    block.move({});
+    contact->add_forces(0);
+    double expected = 0;
+    for (std::size_t v = 0; v < block.surface->size(); ++v)
+        if (block.surface->position[v].y < 0.05e-3) expected += 0.1 * block.surface->mass(v) / (step * step) * 0.1e-3;
+    const Vec3 load = block.load();
+    EXPECT_NEAR(load.y, expected, 1e-10 * expected);
+    EXPECT_EQ(load.x, 0);
+    EXPECT_EQ(contact->report().touching, 6u);
+}
+
+TEST(SelfContact, BothSidesOfARingMeetButItsOwnThicknessDoesNotCount) {
+    Body ring(fill_cylinder({}, {}, 6e-3, 9e-3, spacing, true), spacing, true);
+    const auto contact = make_surface_contact(*ring.surface, *ring.surface, {.friction = 0, .step = step});
+    ring.move({});
+    contact->add_forces(0);
+    EXPECT_EQ(contact->report().touching, 0u);
+    // Squeezed in the middle until its inner sides cross.
+    for (std::size_t i = 0; i < ring.solid.particles.size(); ++i) {
+        Vec3& x = ring.solid.particles.position[i];
+        x.y -= (x.y > 0 ? 1 : -1) * 6.5e-3 * std::exp(-x.x * x.x / 16e-6);
+    }
+    ring.move({});
+    contact->add_forces(0);
+    ASSERT_GT(contact->report().touching, 0u);
+    EXPECT_LT(norm(ring.load()), 1e-14 * double(contact->pushes().size()) * norm(contact->pushes()[0].force));
+}
+
+TEST(ClosestPoint, IsNearerThanAnyOtherOfTheTriangle) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(-1, 1);
+    const auto point = [&] {
+        const double a = any(random), b = any(random), c = any(random);
+        return Vec3{a, b, c};
+    };
+    for (int k = 0; k < 200; ++k) {
+        const Vec3 a = point(), b = point(), c = point(), x = 2.0 * point();
+        const auto w = closest_on_triangle(x, a, b, c);
+        EXPECT_NEAR(w[0] + w[1] + w[2], 1, 1e-12);
+        EXPECT_TRUE(w[0] >= -1e-12 && w[1] >= -1e-12 && w[2] >= -1e-12);
+        const double distance = norm(w[0] * a + w[1] * b + w[2] * c - x);
+        for (int i = 0; i <= 20; ++i)
+            for (int j = 0; i + j <= 20; ++j)
+                EXPECT_LE(distance, norm(i / 20.0 * a + j / 20.0 * b + (20 - i - j) / 20.0 * c - x) + 1e-12);
+    }
+}
