@@ -86,8 +86,9 @@ TEST(Fuzz, damagedFilesEndInAResultOrASentence) {
         }
         EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), longest);
     }
-    if (count >= files.size())
+    if (count >= files.size()) {
         EXPECT_GT(accepted, count / 20);   // some damage does no harm: the mutations are not too coarse
+    }
 }
 
 }   // namespace

@@ -152,10 +152,10 @@ TEST_P(Operators, GradientsOfAQuadraticVelocityAreFoundStepByStep) {
     std::fill(flow.fluid.velocity_gradient.begin(), flow.fluid.velocity_gradient.end(), Mat3{});
     const auto scheme = flow.make(GetParam().precision);
     const auto worst = [&] {
-        double worst = 0;
+        double most = 0;
         for (std::size_t i = 0; i < flow.fluid.size(); ++i)
-            worst = std::max(worst, half * size_of(flow.fluid.velocity_gradient[i] - quadratic_gradient(flow.fluid.position[i], half)));
-        return worst;
+            most = std::max(most, half * size_of(flow.fluid.velocity_gradient[i] - quadratic_gradient(flow.fluid.position[i], half)));
+        return most;
     };
     scheme->step(0, 1e-15);
     const double first = worst();

@@ -32,8 +32,8 @@ void shake(const Lumen& lumen, double share, CellPoints& points) {
     }
 }
 
-void measure_cells_pipe(const deck::Case& config, const std::string& run, const std::function<bool()>& interrupted,
-                        RunData& data) {
+void measure_cells_pipe(const deck::Case& config, const std::string& run, const std::filesystem::path&,
+                        const std::function<bool()>& interrupted, RunData& data) {
     const Lumen lumen = make_cell_lumen(config);
     CellPoints points = make_cell_points(lumen, config.numerics.spacing);
     if (run.ends_with("disordered")) shake(lumen, 0.25, points);

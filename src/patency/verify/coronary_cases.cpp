@@ -11,9 +11,8 @@
 #include "patency/base/errors.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/flow_window.h"
-#include "patency/stages/scene_sampling.h"
-#include "patency/stages/vessel_recorder.h"
 #include "patency/verify/sampling_of_scene.h"
+#include "patency/verify/vessel_sections.h"
 
 namespace patency {
 
@@ -21,121 +20,17 @@ namespace {
 
 constexpr double mm = 1e-3;
 constexpr int instants = 5;         // of the last window
-constexpr int around = 24;          // places on the wall of a section
 constexpr double least_wss = 1;     // Pa: below, the absolute error counts
 
-/// What finite volumes say of a section.
-struct Section {
-    std::string branch;
-    double arc;   // m, along the network's curve
-    SectionPlane plane;
-    double area, flow, pressure, peak, wss;
-};
-
-std::vector<Section> read_sections(const std::filesystem::path& reference) {
-    const auto path = reference / "../../reference/coronary_bifurcation/finite_volume_before.json";
-    std::ifstream file(path);
-    if (!file) throw FileError(fmt::format("cannot read {}, the finite-volume solution", path.string()));
-    const auto json = nlohmann::json::parse(file);
-    std::vector<Section> sections;
-    const auto vec = [](const nlohmann::json& v) { return Vec3{v[0], v[1], v[2]}; };
-    for (const auto& [branch, list] : json.at("sections").items())
-        for (const auto& s : list) {
-            const double area = mm * mm * s.at("area_mm2").get<double>();
-            sections.push_back({branch,
-                                mm * s.at("arc_mm").get<double>(),
-                                {mm * vec(s.at("centre_mm")), vec(s.at("normal")), std::sqrt(area / std::numbers::pi)},
-                                area,
-                                s.at("flow_m3_per_s"),
-                                s.at("mean_pressure_pa"),
-                                s.at("peak_velocity_m_per_s"),
-                                s.at("mean_wss_pa")});
-        }
-    return sections;
-}
-
 /// None where the file is not there: then no run was measured either.
-std::vector<Section> known_sections(const Results& results) {
+std::vector<VesselSection> known_sections(const Results& results) {
     for (const char* run : {"d20", "d30", "d40"})
-        if (results.has(run)) return read_sections(results.reference());
+        if (results.has(run)) return read_bifurcation_sections(results.reference());
     return {};
 }
 
-/// Places where rays from the middle of a section meet its wall, and how much of the outline each stands for.
-struct Ring {
-    WallPlaces places;
-    std::vector<double> weight;
-};
-Ring ring_around(const SectionPlane& plane, const WallHint& wall) {
-    const Vec3 other = std::abs(plane.normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 a = normalized(cross(plane.normal, other)), b = cross(plane.normal, a);
-    Ring ring;
-    for (int k = 0; k < around; ++k) {
-        const double angle = 2 * std::numbers::pi * k / around;
-        const Vec3 ray = std::cos(angle) * a + std::sin(angle) * b;
-        double r = 0;
-        for (int step = 0; step < 60; ++step) r -= wall.distance(plane.centre + r * ray);   // never farther than the wall is
-        ring.places.position.push_back(plane.centre + r * ray);
-        ring.places.normal.push_back(wall.normal(ring.places.position.back()));
-    }
-    for (int k = 0; k < around; ++k) {
-        const auto& x = ring.places.position;
-        ring.weight.push_back(0.5 * (norm(x[std::size_t((k + 1) % around)] - x[std::size_t(k)]) +
-                                     norm(x[std::size_t(k)] - x[std::size_t((k + around - 1) % around)])));
-    }
-    return ring;
-}
-
-class BifurcationMeasure {
-public:
-    BifurcationMeasure(const Scene& scene, std::vector<Section> sections) : sections_(std::move(sections)), hint_(wall_hint(scene)) {
-        for (const Section& s : sections_) {
-            grids_.push_back(make_section_grid(s.plane, hint_));
-            rings_.push_back(ring_around(s.plane, hint_));
-        }
-        for (const Ring& ring : rings_) {
-            all_.position.insert(all_.position.end(), ring.places.position.begin(), ring.places.position.end());
-            all_.normal.insert(all_.normal.end(), ring.places.normal.begin(), ring.places.normal.end());
-        }
-    }
-
-    void sample(const Scene& scene) {
-        const LocalLength reach = sampling_reach(scene);
-        const double mu = scene.material.viscosity;
-        flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint_), scene.reference_pressure);
-        shear_.add(flow_at_wall(scene.fluid, *scene.frame, all_, reach, hint_, [mu](double) { return mu; }).shear_stress, 1);
-    }
-
-    std::size_t count() const { return flows_.instants(); }
-
-    void write(RunData& data) const {
-        const auto means = flows_.mean();
-        const auto shear = shear_.tawss();
-        std::size_t first = 0;
-        for (std::size_t k = 0; k < sections_.size(); ++k) {
-            data.lists["area"].push_back(means[k].area);
-            data.lists["flow"].push_back(means[k].flow);
-            data.lists["pressure"].push_back(means[k].pressure);
-            data.lists["peak"].push_back(means[k].peak_velocity);
-            double sum = 0, weight = 0;
-            for (int n = 0; n < around; ++n, ++first)
-                sum += rings_[k].weight[std::size_t(n)] * shear[first], weight += rings_[k].weight[std::size_t(n)];
-            data.lists["wss"].push_back(sum / weight);
-        }
-    }
-
-private:
-    std::vector<Section> sections_;
-    WallHint hint_;
-    std::vector<SectionGrid> grids_;
-    std::vector<Ring> rings_;
-    WallPlaces all_;
-    SectionFlowMeans flows_;
-    WallShearMeans shear_;
-};
-
 void measure_bifurcation(Scene& scene, const RunContext& context, RunData& data) {
-    BifurcationMeasure sections(scene, read_sections(context.reference));
+    SectionsMeasure sections(scene, read_bifurcation_sections(context.reference));
     FlowWindow window(scene);
     FlowRun run{.until = scene.config.numerics.duration, .exact_times = window.exact_times()};
     run.observe = [&](const Scene& now, const FlowStep&) {
@@ -165,7 +60,7 @@ void measure_bifurcation(Scene& scene, const RunContext& context, RunData& data)
 double number(const RunData& data, const std::string& name) { return data.list(name).at(0); }
 
 /// The section of a branch nearest to an arc of the network.
-std::size_t section_at(const std::vector<Section>& sections, const std::string& branch, double arc) {
+std::size_t section_at(const std::vector<VesselSection>& sections, const std::string& branch, double arc) {
     std::size_t found = sections.size();
     for (std::size_t k = 0; k < sections.size(); ++k)
         if (sections[k].branch == branch && (found == sections.size() || std::abs(sections[k].arc - arc) < std::abs(sections[found].arc - arc)))
@@ -186,7 +81,7 @@ constexpr double proximal_arc = 13.989 * mm, throat_arc = 24 * mm, distal_arc = 
 const std::string stenosed = "anterior_descending";
 
 /// Root mean square over flows and section pressures, relative to the inlet's.
-double combined_error(const RunData& data, const std::vector<Section>& sections) {
+double combined_error(const RunData& data, const std::vector<VesselSection>& sections) {
     double squares = 0, count = 0;
     for (std::size_t k = 0; k < sections.size(); ++k) {
         const double e = (data.list("pressure")[k] - sections[k].pressure) / inlet_pressure;

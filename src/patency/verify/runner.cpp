@@ -119,8 +119,11 @@ private:
                 throw Error(ExitCode::interrupted, "the verification was interrupted; the same command goes on with it");
         };
         try {
-            if (const auto& measure = case_.measure_cells ? case_.measure_cells : case_.measure_solids) {
-                measure(named.resolved, named.name, request_.interrupted, data);
+            if (case_.measure_cells) {
+                case_.measure_cells(named.resolved, named.name, request_.reference, request_.interrupted, data);
+                stop_if_asked();
+            } else if (case_.measure_solids) {
+                case_.measure_solids(named.resolved, named.name, request_.interrupted, data);
                 stop_if_asked();
             } else {
                 measure_particles(named, stop_if_asked, data);

@@ -64,8 +64,10 @@ struct VerifyCase {
     std::function<bool(const std::string&)> is_full;   ///< which runs are; empty: none
     std::function<void(Scene&, const RunContext&, RunData&)> measure;   ///< of moving particles
     /// Of a flow on cells instead, which it makes and solves itself; interrupted tells the solver to stop. Neither: no deck.
-    std::function<void(const deck::Case&, const std::string& run, const std::function<bool()>& interrupted, RunData&)> measure_cells = {};
-    /// Of solids, which it builds and steps itself, in the same way.
+    std::function<void(const deck::Case&, const std::string& run, const std::filesystem::path& reference,
+                       const std::function<bool()>& interrupted, RunData&)>
+        measure_cells = {};
+    /// Of solids, which it builds and steps itself.
     std::function<void(const deck::Case&, const std::string& run, const std::function<bool()>& interrupted, RunData&)> measure_solids = {};
     std::function<void(const Results&, FigureList&)> figures;
     std::function<std::vector<Picture>(const Results&)> pictures;       ///< may be empty
@@ -82,6 +84,7 @@ std::vector<VerifyCase> operator_cases();    // lattice_operators
 std::vector<VerifyCase> nozzle_cases();      // fda_nozzle
 std::vector<VerifyCase> coronary_cases();    // coronary_bifurcation
 std::vector<VerifyCase> cell_cases();        // cells_pipe
+std::vector<VerifyCase> vessel_cell_cases(); // cells_bifurcation, cells_left_coronary_tree
 std::vector<VerifyCase> solid_point_cases(); // material_points, patch
 std::vector<VerifyCase> solid_cases();       // beam, thick_tube, plastic_tube, taylor_bar
 std::vector<VerifyCase> contact_cases();     // incline, two_rings, three_rings
