@@ -7,6 +7,7 @@
 #include "deck_options.h"
 #include "solid_runner.h"
 #include "patency/stages/build.h"
+#include "patency/stages/cell_plan.h"
 #include "patency/stages/plan.h"
 
 namespace patency::app {
@@ -19,6 +20,20 @@ std::string readable_time(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
+void print_resolution(double across, double memory, double seconds, int threads) {
+    fmt::print("  memory               about {:.0f} MB\n", memory / 1e6);
+    fmt::print("  expected time        about {} on {} threads\n", readable_time(seconds), threads);
+    if (across < 12) fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
+}
+
+void print_cell_plan(const std::string& path, const CellPlan& plan) {
+    fmt::print("{}: the deck is right\n", path);
+    fmt::print("  scheme               cells: a steady flow through a rigid lumen, on particles that stand still\n");
+    fmt::print("  spacing              {:.3g} to {:.3g} mm\n", 1e3 * plan.finest, 1e3 * plan.coarsest);
+    fmt::print("  cells                about {:.3g}; {:.1f} across the narrowest place\n", plan.cells, plan.across_narrowest);
+    print_resolution(plan.across_narrowest, plan.memory, plan.seconds, plan.threads);
+}
+
 void check(const DeckOptions& options) {
     const deck::Case config = options.read();
     if (!config.solids.empty()) {
@@ -26,6 +41,7 @@ void check(const DeckOptions& options) {
         fmt::print("{}: the deck is right\n", options.path);
         return print_solid_plan(config);
     }
+    if (config.numerics.scheme == deck::SchemeName::cells) return print_cell_plan(options.path, plan_cells(config, options.apply_threads(config)));
     const auto scene = build_frame(config);
     const FlowPlan plan = plan_flow(*scene, options.apply_threads(config));
     fmt::print("{}: the deck is right\n", options.path);
@@ -36,10 +52,7 @@ void check(const DeckOptions& options) {
                plan.acoustic_step, plan.acoustic_steps);
     fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles,
                plan.wall_particles, plan.across_narrowest);
-    fmt::print("  memory               about {:.0f} MB\n", plan.memory / 1e6);
-    fmt::print("  expected time        about {} on {} threads\n", readable_time(plan.seconds), plan.threads);
-    if (plan.across_narrowest < 12)
-        fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
+    print_resolution(plan.across_narrowest, plan.memory, plan.seconds, plan.threads);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "patency/base/errors.h"
 #include "patency/config/deck.h"
 #include "patency/stages/cell_flow.h"
+#include "patency/stages/cell_plan.h"
 
 namespace patency {
 namespace {
@@ -96,6 +97,9 @@ numerics: {scheme: cells, across: 12, duration: "1 s"}
     const double a = 2e-3, b = 0.8e-3, q = 1e-8, along = 30e-3;
     const double drop = 8 * mu * q / std::numbers::pi * along / (3 * (a - b)) * (1 / (b * b * b) - 1 / (a * a * a));
     EXPECT_NEAR(scene->balance->end_states()[0].pressure / drop, 1, 0.03) << "1.5 % of it is the cone's slope";
+    const CellPlan plan = plan_cells(config, 1);
+    EXPECT_NEAR(plan.cells / double(scene->mesh.size()), 1, 0.05);
+    EXPECT_NEAR(plan.across_narrowest, 12, 0.01);
 }
 
 TEST(CellScene, refusesWhatIsNotSteady) {

@@ -87,7 +87,9 @@ std::vector<InscribedBall> balls_of(const VesselAlong& along) {
     return balls;
 }
 
-SpacingField make_field(const Lumen& lumen, const Vessel* vessel, const deck::Numerics& numerics) {
+}   // namespace
+
+SpacingField make_cell_spacing(const Lumen& lumen, const Vessel* vessel, const deck::Numerics& numerics) {
     const double finest = std::max(lumen.narrowest / *numerics.across, numerics.smallest_spacing.value_or(0)),
                  widest = norm(lumen.bounds.high - lumen.bounds.low);
     const SpacingSettings settings{.smallest = finest,
@@ -95,8 +97,6 @@ SpacingField make_field(const Lumen& lumen, const Vessel* vessel, const deck::Nu
                                    .across = *numerics.across};
     return vessel ? make_spacing_field(lumen, balls_of(*vessel->along), settings) : make_spacing_field(lumen, settings);
 }
-
-}   // namespace
 
 CellPoints make_cell_points(const Lumen& lumen, const SpacingField& field) {
     GradedPoints graded = make_graded_points(lumen, field);
@@ -142,7 +142,7 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
     const Lumen lumen = make_cell_lumen(config, vessel.get());
     const deck::Numerics& numerics = config.numerics;
     std::optional<SpacingField> field;
-    if (numerics.follows_vessel()) field = make_field(lumen, vessel.get(), numerics);
+    if (numerics.follows_vessel()) field = make_cell_spacing(lumen, vessel.get(), numerics);
     const double across = field ? *numerics.across : lumen.narrowest / numerics.spacing;
     const auto solved = [&](double coarser_by, const CellScene* coarser, double tolerance) {
         auto scene = make_cell_scene(config, lumen, field ? make_cell_points(lumen, field->scaled(coarser_by))

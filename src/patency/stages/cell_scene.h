@@ -37,6 +37,9 @@ struct CellScene {
 /// The lumen of a deck. Throws DeckError for what a steady flow on cells cannot be: pulses, walls that move, a body force.
 Lumen make_cell_lumen(const deck::Case& config, const Vessel* vessel = nullptr);
 
+/// The spacing that `numerics.across` asks for. vessel: the deck's, followed; none of a shape.
+SpacingField make_cell_spacing(const Lumen& lumen, const Vessel* vessel, const deck::Numerics& numerics);
+
 /// Relaxed points behind the openings: as far apart as the field says, or `spacing` [m].
 CellPoints make_cell_points(const Lumen& lumen, const SpacingField& field);
 CellPoints make_cell_points(const Lumen& lumen, double spacing);

@@ -138,8 +138,6 @@ Lumen make_lumen_of_surface(const deck::Case& config, const Vessel& vessel) {
     // become some; the continuations hold the buffer, the wall beyond it and its kernels.
     Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = extension_for(config.numerics, widest),
                                                          .straight = geometry.extensions.diameters});
-    // Cells are few enough to ask the triangles, and a vessel's own spacings would need a grid of its finest everywhere.
-    if (config.numerics.follows_vessel()) lumen.distance = lumen.exact.value();
     std::vector<double> outlets;
     for (std::size_t k = 1; k < lumen.openings.size(); ++k) outlets.push_back(2 * lumen.openings[k].radius);
     lumen.narrowest = narrowest;
@@ -189,6 +187,8 @@ Lumen make_lumen(const deck::Case& config, const Vessel* known) {
         if (g.shape->type != deck::ShapeType::box && !is_branching(g))
             lumen.passage.tightest_area = lumen.planar ? width : 0.25 * std::numbers::pi * width * width;
     }
+    // Cells are few enough to ask the triangles, and a vessel's own spacings would need a grid of its finest everywhere.
+    if (config.numerics.follows_vessel() && lumen.exact) lumen.distance = *lumen.exact;
     expect_same_names(config, lumen);
     return lumen;
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a flow on cells will cost, said before it runs.
+#pragma once
+
+#include "patency/config/case.h"
+
+namespace patency {
+
+struct CellPlan {
+    double cells;
+    double finest, coarsest;   ///< spacing [m]
+    double across_narrowest;   ///< cells
+    double memory;             ///< bytes
+    double seconds;            ///< expected on `threads` threads
+    int threads;
+};
+
+/// Of a deck of scheme cells. Throws DeckError for what a steady flow on cells cannot be, GeometryError.
+CellPlan plan_cells(const deck::Case& config, int threads);
+
+}   // namespace patency
