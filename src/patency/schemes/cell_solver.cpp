@@ -31,7 +31,7 @@ class StallWatch {
 public:
     static constexpr std::size_t window = 60;         // steps
     static constexpr double progress = 0.5;           // of the residual in a window, or nothing is gained
-    static constexpr double standing = 2e-3;          // swing of the openings in a window that is none
+    static constexpr double standing = 5e-3;          // swing of the openings in a window that is none, as numerics.convergence has it
 
     void add(double residual, const std::vector<CellEndState>& ends) {
         residuals_.push_back(residual);
