@@ -3,30 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "patency/stages/solid_scene.h"
 #include "patency/verify/measures.h"
+#include "patency/verify/solid_runs.h"
 #include "patency/verify/verify_case.h"
 
 namespace patency {
 
 namespace {
-
-using Stop = std::function<bool()>;
-
-/// Steps to `until`, looking after every step.
-template <class Look>
-void run_to(SolidScene& scene, double until, const Stop& interrupted, const Look& look) {
-    while (scene.time < until && !(interrupted && interrupted())) {
-        step_solids(scene, until);
-        look();
-    }
-}
-
-void note_size(const SolidScene& scene, RunData& data) {
-    data.particles = std::int64_t(scene.particle_count());
-    data.acoustic_steps = scene.steps;
-    data.particle_steps = double(data.particles) * double(scene.steps);
-}
 
 struct Sums {
     Vec3 momentum, turn;   // about the origin

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "patency/stages/solid_scene.h"
 #include "patency/verify/solid_closed_forms.h"
+#include "patency/verify/solid_runs.h"
 #include "patency/verify/verify_case.h"
 
 namespace patency {
@@ -14,22 +14,6 @@ namespace patency {
 namespace {
 
 using std::numbers::pi;
-using Stop = std::function<bool()>;
-
-/// Steps to `until`, looking after every step.
-template <class Look>
-void run_to(SolidScene& scene, double until, const Stop& interrupted, const Look& look) {
-    while (scene.time < until && !(interrupted && interrupted())) {
-        step_solids(scene, until);
-        look();
-    }
-}
-
-void note_size(const SolidScene& scene, RunData& data) {
-    data.particles = std::int64_t(scene.particle_count());
-    data.acoustic_steps = scene.steps;
-    data.particle_steps = double(data.particles) * double(scene.steps);
-}
 
 // The plate.
 
