@@ -31,8 +31,23 @@ TEST(CellTerms, carryALinearFieldExactly) {
     const Flux flux = through_face({area, norm(area), 0.1, c - a, c - b}, state_at(a), state_at(b), true);
     const CellState there = state_at(c);
     EXPECT_NEAR(flux.volume, dot(area, there.u), 1e-15);
-    const Vec3 expected = flux.volume * there.u + there.p * area - 0.02 * 0.1 * (there.grad_u * (b - a));
+    const Vec3 normal = (1 / norm(area)) * area;
+    const Vec3 expected = flux.volume * there.u + carried_by_spread(norm(area), normal, there.grad_u) + there.p * area -
+                          0.02 * 0.1 * (there.grad_u * (b - a));
     EXPECT_LT(norm(flux.momentum - expected), 1e-15);
+}
+
+// Over a square the mean of (u' . n) u' is known in closed form; the face's second moment is that of a rounder one.
+TEST(CellTerms, carryTheSpreadOfAShear) {
+    const double side = 0.2, rate = 3, tilt = 0.7;   // u = (tilt y, rate y, 0), n = y's neighbour x
+    Mat3 g{};
+    g = outer(Vec3{tilt, rate, 0}, Vec3{0, 1, 0});
+    const Vec3 spread = carried_by_spread(side * side, Vec3{1, 0, 0}, g);
+    const double second_moment = side * side / 12;   // mean of y^2
+    EXPECT_NEAR(spread.x / (side * side * tilt * tilt * second_moment), 1, 0.05);
+    EXPECT_NEAR(spread.y / (side * side * tilt * rate * second_moment), 1, 0.05);
+    EXPECT_EQ(spread.z, 0);
+    EXPECT_EQ(norm(carried_by_spread(1, Vec3{0, 1, 0}, g)), 0);   // along n itself there is no spread
 }
 
 // u = s (alpha + beta s) over a plane wall: value and slope at s give alpha.

@@ -34,6 +34,17 @@ double level_without_flow(std::span<const CellEnd> ends) {
     return pressures / conductance;
 }
 
+/// Across a patch of an opening, by differences: row a is the gradient of velocity a [1/s].
+Mat3 gradient_over(const CellPatch& patch, const std::function<Vec3(const Vec3& x)>& velocity) {
+    const double step = 0.3 * std::sqrt(norm(patch.area));
+    const Vec3 other = std::abs(patch.normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 first = normalized(cross(patch.normal, other)), second = cross(patch.normal, first);
+    Mat3 gradient{};
+    for (const Vec3& e : {first, second})
+        gradient += outer((velocity(patch.centroid + step * e) - velocity(patch.centroid - step * e)) / (2 * step), e);
+    return gradient;
+}
+
 }   // namespace
 
 CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span<const CellEnd> ends,
@@ -50,6 +61,7 @@ CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span
     face_flux_.resize(mesh.faces.size());
     patch_flux_.resize(mesh.patches.size());
     profile_.resize(mesh.patches.size());
+    profile_gradient_.resize(mesh.patches.size());
     ends_.resize(ends.size());
     for (std::uint32_t k = 0; k < mesh.patches.size(); ++k)
         if (const int o = mesh.patches[k].opening; o >= 0) ends_[std::size_t(o)].patches.push_back(k);
@@ -78,11 +90,13 @@ void CellBalance::set_end(const CellEnd& said, End& end) {
     for (const std::uint32_t k : end.patches) {
         const CellPatch& patch = mesh_.patches[k];
         profile_[k] = said.velocity ? said.velocity(patch.centroid) / speed_ : -patch.normal;
+        if (said.velocity) profile_gradient_[k] = (1 / speed_) * gradient_over(patch, said.velocity);
         carried += dot(profile_[k], patch.area);
     }
     if (end.wanted != 0 && !(std::abs(carried) > 1e-3 * std::abs(end.wanted)))
         throw DeckError("openings: the velocity over an opening carries nothing of its flow");
-    for (const std::uint32_t k : end.patches) profile_[k] *= carried != 0 ? -1 / carried : 0;
+    const double to_unit = carried != 0 ? -1 / carried : 0;
+    for (const std::uint32_t k : end.patches) profile_[k] *= to_unit, profile_gradient_[k] = to_unit * profile_gradient_[k];
 }
 
 void CellBalance::set_fields(const CellFields& fields) {
@@ -175,7 +189,7 @@ void CellBalance::compute_patch_fluxes() {
             patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
                                           ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{});
         else
-            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k));
+            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k));
     });
 }
 
@@ -350,6 +364,13 @@ std::vector<Vec3> CellBalance::wall_shear_stress() const {
         stress[k] = fluid_.density * speed_ * speed_ * wall_viscosity(cell, patch) * along;
     }
     return stress;
+}
+
+std::vector<double> CellBalance::patch_pressure() const {
+    std::vector<double> pressure;
+    for (const CellPatch& patch : mesh_.patches)
+        pressure.push_back(level_ + fluid_.density * speed_ * speed_ * state_[patch.cell].p_at(way_to(patch)));
+    return pressure;
 }
 
 CellFields CellBalance::fields_at(std::span<const Vec3> places) const {

@@ -74,6 +74,7 @@ public:
     std::vector<CellEndState> end_states() const;
     /// Per patch, zero away from walls [Pa].                                                       THEORY.md (18.7)
     std::vector<Vec3> wall_shear_stress() const;
+    std::vector<double> patch_pressure() const;   ///< per patch: what its cell extrapolates to it [Pa]
     std::span<const Mat3> velocity_gradient() const { return grad_u_; }   ///< over the reference speed [1/m]
     std::span<const Vec3> pressure_gradient() const { return grad_p_; }   ///< over density and its square [1/m]
     /// The fields of another mesh, from the gradients here.
@@ -106,6 +107,9 @@ private:
     }
     /// What an opening's flow is at a patch of it, with the end's profile; and the patch's share of the flow.
     Vec3 imposed(std::size_t k) const { return -ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_[k]; }
+    Mat3 imposed_gradient(std::size_t k) const {
+        return -ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_gradient_[k];
+    }
     double share_of(std::size_t k) const { return -dot(profile_[k], mesh_.patches[k].area); }
     Vec3 way_to(const CellPatch& patch) const { return patch.centroid - mesh_.point[patch.cell]; }
 
@@ -117,6 +121,7 @@ private:
     CellGradients for_pressure_, for_velocity_;
     std::vector<double> width_;   // of a cell [m]
     std::vector<Vec3> profile_;   // per patch: the velocity of a flow of -1 through its end
+    std::vector<Mat3> profile_gradient_;
     std::vector<End> ends_;
 
     std::vector<cell_terms::CellState> state_;

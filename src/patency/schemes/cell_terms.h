@@ -28,12 +28,25 @@ struct Flux {
 /// The artificial sound speed of a cell of width h.                                            THEORY.md (18.8)
 inline double sound_speed(double kappa, double speed, double nu, double h) { return kappa * (speed + 4 * nu / h); }
 
+/// What a velocity that varies over a side carries beyond its mean: size times the mean of (u' . n) u', u' = grad u d, with d
+/// of a face that is about as wide as long.                                                     THEORY.md (18.15)
+inline Vec3 carried_by_spread(double size, const Vec3& normal, const Mat3& grad_u) {
+    constexpr double second_moment = 1 / 12.5;   // over the area, of a hexagon and of a disc; a square's is 1 / 12
+    const Vec3 slope = transpose(grad_u) * normal;
+    return size * second_moment * size * (grad_u * (slope - dot(slope, normal) * normal));
+}
+
 /// From a to b through their face: area vector A, conductance |A| / r, and the way from either point to the centroid.
 struct Face {
     Vec3 area;
     double size, conductance;
     Vec3 from_a, from_b;
 };
+
+/// How much of the velocity that a face carries is what the side upstream extrapolates; the rest is the mean of both sides. All of
+/// it is of second order, and what it adds is a friction of fourth order that damps waves of two cells. With half of it, as
+/// good as the third order in a row of cells, the boundary layer behind a plug at D/12 errs three times as much.
+inline constexpr double upwinding = 0.2;
 
 /// Mean values carry mass and pressure; what the pressures on both sides differ by stabilises the flow, and vanishes for a
 /// linear pressure. Swapping a and b flips the sign.                                            THEORY.md (18.4), (18.5)
@@ -44,10 +57,11 @@ inline Flux through_face(const Face& face, const CellState& a, const CellState& 
     const double mean_p = 0.5 * (a.p + b.p) + 0.5 * dot(a.grad_p + b.grad_p, off);
     const double volume =
         dot(face.area, mean_u) - face.size / (a.c + b.c) * (b.p_at(face.from_b) - a.p_at(face.from_a));
-    // Fromm: half way between the mean and what the side upstream extrapolates.
-    const Vec3 carried = 0.5 * (mean_u + (volume > 0 ? a.u_at(face.from_a) : b.u_at(face.from_b)));
+    const Vec3 upstream = volume > 0 ? a.u_at(face.from_a) : b.u_at(face.from_b);
+    const Vec3 carried = mean_u + upwinding * (upstream - mean_u);
     const double nu = 0.5 * (a.nu + b.nu);
-    Vec3 momentum = volume * carried + mean_p * face.area - nu * face.conductance * (b.u - a.u);
+    Vec3 momentum = volume * carried + carried_by_spread(face.size, (1 / face.size) * face.area, grad_u) +
+                    mean_p * face.area - nu * face.conductance * (b.u - a.u);
     if (!is_newtonian) momentum -= nu * (transpose(grad_u) * face.area);
     return {volume, momentum};
 }
@@ -65,10 +79,12 @@ inline Flux into_wall(const CellState& cell, const Vec3& area, const Vec3& d, do
 /// Into a wall that slips or a plane of symmetry.
 inline Flux into_slip(const CellState& cell, const Vec3& area, const Vec3& d) { return {0, cell.p_at(d) * area}; }
 
-/// Through an opening where the velocity is imposed.                                            THEORY.md (18.9)
-inline Flux through_imposed(const CellState& cell, const Vec3& area, const Vec3& d, double distance, const Vec3& u) {
-    const double volume = dot(u, area);
-    return {volume, volume * u + cell.p_at(d) * area - cell.nu * norm(area) / distance * (u - cell.u)};
+/// Through an opening where the velocity u is imposed, which varies along it by grad_u.         THEORY.md (18.9)
+inline Flux through_imposed(const CellState& cell, const Vec3& area, const Vec3& d, double distance, const Vec3& u,
+                            const Mat3& grad_u) {
+    const double volume = dot(u, area), size = norm(area);
+    return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u) + cell.p_at(d) * area -
+                        cell.nu * size / distance * (u - cell.u)};
 }
 /// Through an opening where the pressure is imposed; the volume of it that does not depend on the pressure is free_volume.
 ///                                                                                              THEORY.md (18.10)
@@ -79,7 +95,9 @@ inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d
 inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure,
                          const Vec3& entering) {
     const double volume = free_volume(cell, area, d) - norm(area) / cell.c * pressure;
-    return {volume, volume * (volume < 0 ? entering : cell.u) + pressure * area};
+    const double size = norm(area);
+    const Vec3 spread = volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u);
+    return {volume, volume * (volume < 0 ? entering : cell.u) + spread + pressure * area};
 }
 
 /// An opening whose pressure answers to its flow, p = p0 + R q, with q = free - conductance p: both at once. THEORY.md (18.11)
