@@ -38,6 +38,48 @@ TEST(WallShear, OfAParabolaIsPoiseuilles) {
     }
 }
 
+/// Parts of the plane z = 0, in no order, with a stress and a pressure that vary linearly along it.
+WallParts parts_of_a_plane(const Vec3& normal) {
+    WallParts parts;
+    for (int k = 0; k < 400; ++k) {
+        const double a = std::fmod(0.7548 * k, 1.0), b = std::fmod(0.5698 * k, 1.0);
+        parts.places.position.push_back({1e-3 * a, 1e-3 * b, 0});
+        parts.places.normal.push_back(normal);
+        parts.area.push_back((1 + a) * 2.5e-9);
+        parts.flow.shear_stress.push_back({1 + a, 2 * b - a, 0});
+        parts.flow.pressure.push_back(10 + 3 * a - b);
+    }
+    return parts;
+}
+
+TEST(WallShear, OfPartsIsExactWhereItVariesLinearly) {
+    const WallParts parts = parts_of_a_plane({0, 0, 1});
+    // In the middle, at the edge and in a corner of the plane.
+    const WallPlaces places{{{0.5e-3, 0.4e-3, 0}, {0, 0.3e-3, 0}, {1e-3, 1e-3, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
+    const WallFlow flow = flow_of_parts(parts, places, 0.15e-3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double a = 1e3 * places.position[k].x, b = 1e3 * places.position[k].y;
+        EXPECT_NEAR(flow.shear_stress[k].x, 1 + a, 3e-3) << k;
+        EXPECT_NEAR(flow.shear_stress[k].y, 2 * b - a, 3e-3) << k;
+        EXPECT_NEAR(flow.pressure[k], 10 + 3 * a - b, 3e-3) << k;
+    }
+}
+
+TEST(WallShear, OfPartsLeavesOutTheOtherSideOfACarina) {
+    WallParts parts = parts_of_a_plane({0, 0, 1});
+    const WallParts other = parts_of_a_plane({0, 0, -1});
+    for (std::size_t k = 0; k < other.area.size(); ++k) {
+        parts.places.position.push_back(other.places.position[k] + Vec3{0, 0, 1e-5});
+        parts.places.normal.push_back(other.places.normal[k]);
+        parts.area.push_back(other.area[k]);
+        parts.flow.shear_stress.push_back({100, 100, 0});
+        parts.flow.pressure.push_back(100);
+    }
+    const WallFlow flow = flow_of_parts(parts, {{{0.5e-3, 0.5e-3, 0}, {0.5e-3, 5e-3, 0}}, {{0, 0, 1}, {0, 0, 1}}}, 0.15e-3);
+    EXPECT_NEAR(flow.shear_stress[0].x, 1.5, 3e-3);
+    EXPECT_TRUE(std::isnan(flow.pressure[1]));   // where there is no wall
+}
+
 TEST(WallShear, NeedsNoDistancesWhereTheSurfaceHasPoints) {
     PoiseuilleTube tube;
     for (double x = 0; x < tube.length; x += 0.4 * tube.reach())

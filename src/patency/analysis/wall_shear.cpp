@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/analysis/wall_shear.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "patency/base/parallel.h"
+#include "patency/cells/point_tree.h"
 #include "patency/physics/fluid/shear_rate.h"
 
 namespace patency {
@@ -24,6 +27,47 @@ WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const Wal
         flow.shear_stress[k] = traction - dot(traction, n) * n;
         flow.pressure[k] = samples[k].pressure;
     }
+    return flow;
+}
+
+WallFlow flow_of_parts(const WallParts& parts, const WallPlaces& places, const LocalLength& reach) {
+    const PointTree tree(parts.places.position);
+    WallFlow flow{std::vector<Vec3>(places.position.size(), {NAN, NAN, NAN}), std::vector<double>(places.position.size(), NAN)};
+    for_each_index(places.position.size(), [&](std::size_t k) {
+        const Vec3 &x = places.position[k], &n = places.normal[k];
+        const double radius = reach(x);
+        std::vector<std::uint32_t> found;
+        tree.find(x, radius, found);
+        // Along the wall, in radii, from the weighted middle of the parts: so the mean and the slope come apart.
+        const auto weight = [&](std::uint32_t i) {
+            const double r = std::min(1.0, norm(parts.places.position[i] - x) / radius), t = 1 - r;
+            return dot(parts.places.normal[i], n) > 0 ? parts.area[i] * t * t * t * t * (1 + 4 * r) : 0.0;
+        };
+        const auto along = [&](const Vec3& d) { return (d - dot(d, n) * n) / radius; };
+        double sum = 0, pressure = 0;
+        Vec3 middle{}, stress{};
+        for (const std::uint32_t i : found) {
+            const double w = weight(i);
+            sum += w, middle += w * along(parts.places.position[i] - x);
+            stress += w * parts.flow.shear_stress[i], pressure += w * parts.flow.pressure[i];
+        }
+        if (!(sum > 0)) return;
+        middle *= 1 / sum, stress *= 1 / sum, pressure /= sum;
+        Mat3 moments = sum * outer(n, n), stress_moments{};
+        Vec3 pressure_moments{};
+        for (const std::uint32_t i : found) {
+            const double w = weight(i);
+            const Vec3 e = along(parts.places.position[i] - x) - middle;
+            moments += w * outer(e, e);
+            stress_moments += w * outer(parts.flow.shear_stress[i] - stress, e);
+            pressure_moments += w * (parts.flow.pressure[i] - pressure) * e;
+        }
+        moments += 1e-6 * sum * identity<double>();   // few parts on one line tell no slope across it
+        const Vec3 to_place = inverse(moments) * (-1.0 * middle);
+        stress += stress_moments * to_place;
+        flow.shear_stress[k] = stress - dot(stress, n) * n;
+        flow.pressure[k] = pressure + dot(pressure_moments, to_place);
+    });
     return flow;
 }
 

@@ -30,6 +30,17 @@ WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const Wal
                                     const LocalLength& reach, const WallHint& wall,
                                     const std::function<double(double)>& viscosity_at);
 
+/// What a scheme says itself of small parts of a wall.
+struct WallParts {
+    WallPlaces places;         ///< their middles
+    std::vector<double> area;  ///< [m^2]
+    WallFlow flow;
+};
+
+/// At every place the plane through the parts within `reach` that face its way, by least squares with the parts' areas and the
+/// Wendland kernel's weights: exact for what varies linearly along a flat wall. NaN where no part is within reach.
+WallFlow flow_of_parts(const WallParts& parts, const WallPlaces& places, const LocalLength& reach);
+
 /// Means over time of a wall shear stress. Places where any stress was NaN stay NaN.
 class WallShearMeans {
 public:

@@ -12,6 +12,26 @@
 
 namespace patency {
 
+namespace {
+
+WallParts wall_parts_of(const CellScene& cells) {
+    const auto stress = cells.balance->wall_shear_stress();
+    const auto pressure = cells.balance->patch_pressure();
+    WallParts parts;
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+        const CellPatch& patch = cells.mesh.patches[k];
+        if (patch.opening != CellPatch::wall) continue;
+        parts.places.position.push_back(patch.centroid);
+        parts.places.normal.push_back(patch.normal);
+        parts.area.push_back(norm(patch.area));
+        parts.flow.shear_stress.push_back(stress[k]);
+        parts.flow.pressure.push_back(pressure[k]);
+    }
+    return parts;
+}
+
+}   // namespace
+
 std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
     auto scene = std::make_unique<Scene>();
     scene->config = cells.config;
@@ -34,13 +54,12 @@ std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
         scene->fluid.pressure[i] = fields.pressure[i];
         scene->fluid.volume[i] = cells.mesh.volume[i];
     }
-    std::vector<const CellPatch*> wall;
-    for (const CellPatch& patch : cells.mesh.patches)
-        if (patch.opening == CellPatch::wall) wall.push_back(&patch);
-    scene->wall.resize(wall.size());
-    for (std::size_t k = 0; k < wall.size(); ++k) {
-        scene->wall.position[k] = wall[k]->centroid;
-        scene->wall.normal[k] = wall[k]->normal;
+    scene->wall_parts = wall_parts_of(cells);
+    const WallPlaces& wall = scene->wall_parts->places;
+    scene->wall.resize(wall.position.size());
+    for (std::size_t k = 0; k < wall.position.size(); ++k) {
+        scene->wall.position[k] = wall.position[k];
+        scene->wall.normal[k] = wall.normal[k];
         scene->wall.depth[k] = 0;
     }
     return scene;

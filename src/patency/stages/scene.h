@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "patency/analysis/wall_shear.h"
 #include "patency/bodies/fluid.h"
 #include "patency/bodies/open_end.h"
 #include "patency/bodies/relax.h"
@@ -39,6 +40,7 @@ struct Scene {
     std::unique_ptr<FlowScheme> scheme;
     RelaxQuality relax_quality{}; ///< of the points it started from
     std::function<double(const Vec3&)> spacing_at;   ///< [m]; empty: numerics.spacing everywhere
+    std::optional<WallParts> wall_parts;             ///< of a scheme that knows the flow at the wall itself
 
     double time = 0;                 ///< [s]
     double reference_pressure = 0;   ///< p_ref: fluid.pressure is above it [Pa]

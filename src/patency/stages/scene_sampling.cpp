@@ -22,6 +22,15 @@ WallHint wall_hint(const Scene& scene) {
     return hint;
 }
 
+WallFlow wall_flow(const Scene& scene, const WallPlaces& places, const WallHint& hint) {
+    // Four parts or so to a place's side.
+    if (scene.wall_parts) return flow_of_parts(*scene.wall_parts, places, [&](const Vec3& x) { return 2 * spacing_at(scene, x); });
+    const double mu = scene.material.viscosity;
+    const auto constant = [mu](double) { return mu; };
+    return flow_at_wall(scene.fluid, *scene.frame, places, sampling_reach(scene), hint,
+                        scene.material.viscosity_at ? scene.material.viscosity_at : constant);
+}
+
 bool wall_sticks(const Scene& scene) {
     return scene.config.wall.slip == deck::Slip::no_slip && scene.config.wall.velocity.empty();
 }

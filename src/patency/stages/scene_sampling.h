@@ -3,6 +3,7 @@
 #pragma once
 
 #include "patency/analysis/sample.h"
+#include "patency/analysis/wall_shear.h"
 #include "patency/stages/scene.h"
 
 namespace patency {
@@ -16,6 +17,9 @@ LocalLength sampling_reach(const Scene& scene);
 /// Distance and normal of the scene's wall, which must outlive the hint, and the feet of its first layer of particles. The wall is at
 /// rest.
 WallHint wall_hint(const Scene& scene);
+
+/// At places of the wall: what the scheme says itself, or what is fitted to its particles.
+WallFlow wall_flow(const Scene& scene, const WallPlaces& places, const WallHint& hint);
 
 /// Whether the wall holds the blood that touches it, so that samples near it may count on its rest.
 bool wall_sticks(const Scene& scene);

@@ -71,11 +71,8 @@ VesselRecorder::VesselRecorder(const Scene& scene)
 void VesselRecorder::sample(const Scene& scene) {
     const WallHint hint = wall_hint(scene);
     const LocalLength reach = sampling_reach(scene);
-    const double mu = scene.material.viscosity;
     flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint), scene.reference_pressure);
-    const auto constant = [mu](double) { return mu; };
-    const WallFlow at_wall = flow_at_wall(scene.fluid, *scene.frame, wall_.places, reach, hint,
-                                          scene.material.viscosity_at ? scene.material.viscosity_at : constant);
+    const WallFlow at_wall = wall_flow(scene, wall_.places, hint);
     shear_.add(at_wall.shear_stress, 1);
     cut_.sample(scene);
     wall_pressure_.resize(at_wall.pressure.size(), 0);

@@ -88,9 +88,8 @@ SectionsMeasure::SectionsMeasure(const Scene& scene, std::vector<VesselSection> 
 
 void SectionsMeasure::sample(const Scene& scene) {
     const LocalLength reach = sampling_reach(scene);
-    const double mu = scene.material.viscosity;
     flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint_), scene.reference_pressure);
-    shear_.add(flow_at_wall(scene.fluid, *scene.frame, all_, reach, hint_, [mu](double) { return mu; }).shear_stress, 1);
+    shear_.add(wall_flow(scene, all_, hint_).shear_stress, 1);
 }
 
 void SectionsMeasure::write(RunData& data) const {
