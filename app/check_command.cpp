@@ -41,7 +41,7 @@ void check(const DeckOptions& options) {
         fmt::print("{}: the deck is right\n", options.path);
         return print_solid_plan(config);
     }
-    if (config.numerics.scheme == deck::SchemeName::cells) return print_cell_plan(options.path, plan_cells(config, options.apply_threads(config)));
+    if (config.scheme() == deck::SchemeName::cells) return print_cell_plan(options.path, plan_cells(config, options.apply_threads(config)));
     const auto scene = build_frame(config);
     const FlowPlan plan = plan_flow(*scene, options.apply_threads(config));
     fmt::print("{}: the deck is right\n", options.path);

@@ -32,7 +32,7 @@ TEST_F(Init, ItsDeckGoesThroughCheckAndEstimate) {
     const Result result =
         patency(fmt::format("init '{}' --unit mm --budget 1min -o {}", tube("my vessel #1.vtp"), deck()));
     ASSERT_EQ(result.exit_code, 0) << result.output;
-    for (const char* word : {"outlet_1", "Lesions: none", "Price, for a budget of 60 s", "Written: "})
+    for (const char* word : {"outlet_1", "Lesions: none", "for a budget of 60 s", "Written: "})
         EXPECT_TRUE(has(result.output, word)) << word;
     const Result check = patency("check " + deck());
     EXPECT_EQ(check.exit_code, 0) << check.output;

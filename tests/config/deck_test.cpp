@@ -123,6 +123,29 @@ TEST(Deck, SettingsGoOverTheFile) {
     EXPECT_EQ(c.output.fields, std::vector<std::string>{"density"});
 }
 
+TEST(Deck, ASettingOfNullTakesAKeyAway) {
+    const Settings cells{"numerics.spacing=null", "numerics.across=16"};
+    const Case c = parse_case(pipe_deck, "deck", "", cells);
+    EXPECT_EQ(c.numerics.spacing, 0);
+    EXPECT_EQ(c.numerics.across, 16);
+    EXPECT_EQ(parse_case(pipe_deck, "deck", "", {"numerics.nothing=null"}), parse_case(pipe_deck));
+}
+
+TEST(Deck, SteadyFlowInAVesselIsSolvedOnCellsUnlessItSaysOtherwise) {
+    Case c = parse_case(pipe_deck);
+    EXPECT_EQ(c.scheme(), SchemeName::sph);   // a shape
+    c.geometry.shape.reset();
+    c.geometry.network = "tube.json";
+    c.about.mode = Mode::steady;
+    EXPECT_EQ(c.scheme(), SchemeName::cells);
+    c.about.mode = Mode::periodic;
+    EXPECT_EQ(c.scheme(), SchemeName::sph);
+    c.about.mode = Mode::steady, c.wall.motion = WallMotion::deformable;
+    EXPECT_EQ(c.scheme(), SchemeName::sph);
+    c.wall.motion = WallMotion::rigid, c.numerics.scheme = SchemeName::paper;
+    EXPECT_EQ(c.scheme(), SchemeName::paper);
+}
+
 TEST(Deck, TheMusclesPressureIsAPressureAndComesBackFromText) {
     const Case c = parse_case(pipe_deck, "deck", "", {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
                                                       "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
@@ -156,8 +179,8 @@ TEST(Runs, AreTheDeckWithWhatTheySet) {
     ASSERT_EQ(runs.size(), 2u);
     EXPECT_EQ(runs[0].name, "d12");
     EXPECT_DOUBLE_EQ(runs[0].resolved.numerics.spacing, 1e-3 / 12);
-    EXPECT_EQ(runs[0].resolved.numerics.scheme, SchemeName::sph);
-    EXPECT_EQ(runs[1].resolved.numerics.scheme, SchemeName::paper);
+    EXPECT_EQ(runs[0].resolved.scheme(), SchemeName::sph);
+    EXPECT_EQ(runs[1].resolved.scheme(), SchemeName::paper);
     EXPECT_DOUBLE_EQ(runs[1].resolved.geometry.shape->gap, 0.002);
     EXPECT_TRUE(runs[1].resolved.runs.empty());
     EXPECT_EQ(parse_case(valid_decks[2]).runs.size(), 2u);

@@ -45,8 +45,8 @@ TEST(Mistakes, MissingKey) {
 }
 
 TEST(Mistakes, SpacingThatFollowsTheVessel) {
-    EXPECT_EQ(mistakes_in(pipe_with("spacing: \"0.2 mm\"", "across: 12")),
-              only("16:11: numerics.across: is for scheme cells; moving particles need one spacing everywhere, numerics.spacing"));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing: \"0.2 mm\"", "  scheme: sph\n  across: 12")),
+              only("17:11: numerics.across: is for scheme cells; moving particles need one spacing everywhere, numerics.spacing"));
     EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  largest_spacing: \"0.3 mm\"\n  spacing:")),
               only("16:20: numerics.largest_spacing: means something with numerics.across only"));
     EXPECT_EQ(mistakes_in(pipe_with("  spacing: \"0.2 mm\"", "  scheme: cells\n  across: 12\n  largest_spacing: \"0.1 mm\"\n  smallest_spacing: \"0.2 mm\"")),

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 /// The bifurcation that comes with the program, coarse: the least that its lesion allows.
 deck::Case bifurcation(deck::Settings more = {}) {
-    deck::Settings settings{"numerics.spacing=0.48 mm"};
+    deck::Settings settings{"numerics.scheme=sph", "numerics.across=null", "numerics.spacing=0.48 mm", "numerics.convergence.tolerance_percent=0.5"};
     settings.insert(settings.end(), more.begin(), more.end());
     return deck::read_case(fs::path(PATENCY_SOURCE_DIR) / "cases/coronary_bifurcation.yaml", settings);
 }
@@ -50,8 +50,8 @@ blood: {{density: "1060 kg/m^3", viscosity: "3.5 mPa s"}}
 openings:
   inlet: {{type: flow, flow: "60 mL/min", profile: parabola}}
   outlet: {{type: rcr, proximal_resistance: "1e8 Pa s/m^3", distal_resistance: "9e8 Pa s/m^3", compliance: "1e-10 m^3/Pa"}}
-numerics: {{spacing: "0.4 mm", {}}}
-)", numerics);
+numerics: {{spacing: "0.4 mm", {}{}}}
+)", numerics.find("scheme") == std::string::npos ? "scheme: sph, " : "", numerics);
     return deck::read_case(folder / "tube.yaml");
 }
 

@@ -5,6 +5,7 @@
 // folders have openings of their own.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -285,7 +286,7 @@ struct Convergence {
 };
 
 struct Numerics {
-    SchemeName scheme = SchemeName::sph;
+    std::optional<SchemeName> scheme;         ///< absent: Case::scheme() chooses
     double spacing = 0;                       ///< m between particles; 0: follows the vessel (`across`)
     std::optional<double> across;             ///< of cells: spacings in the local diameter, instead of one spacing
     std::optional<double> smallest_spacing, largest_spacing;   ///< of cells [m]
@@ -358,6 +359,14 @@ struct Case {
 
     /// A surface or a network, which has centrelines and an estimate; shapes have not.
     bool has_vessel() const { return geometry.surface || geometry.network; }
+    /// The deck's word; else cells where the flow is steady between walls at rest in a vessel, which they solve in a minute.
+    SchemeName scheme() const {
+        if (numerics.scheme) return *numerics.scheme;
+        const bool has_waveform = std::any_of(openings.begin(), openings.end(), [](const auto& o) { return bool(o.second.waveform); });
+        const bool is_steady = about.mode == Mode::steady && wall.motion == WallMotion::rigid && wall.velocity.empty() && !has_waveform &&
+                               body_force.x == 0 && body_force.y == 0 && body_force.z == 0;
+        return numerics.follows_vessel() || (has_vessel() && is_steady) ? SchemeName::cells : SchemeName::sph;
+    }
     InitialVelocity initial_velocity() const {
         return initial.velocity.value_or(has_vessel() ? InitialVelocity::estimate : InitialVelocity::rest);
     }

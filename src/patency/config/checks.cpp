@@ -130,7 +130,7 @@ private:
 
     void check_numerics() {
         const Numerics& n = case_.numerics;
-        expect(!n.across || n.scheme == SchemeName::cells, "numerics.across",
+        expect(!n.across || case_.scheme() == SchemeName::cells, "numerics.across",
                "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing", {"numerics.scheme"});
         expect(!n.across || case_.solids.empty(), "numerics.across", "is for blood; solids need numerics.spacing");
         expect(n.across || !n.smallest_spacing, "numerics.smallest_spacing", "means something with numerics.across only");

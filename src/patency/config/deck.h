@@ -11,7 +11,7 @@
 
 namespace patency::deck {
 
-/// Settings like "numerics.spacing=0.2 mm" that go over what the file says; values are YAML.
+/// Settings like "numerics.spacing=0.2 mm" that go over what the file says; values are YAML, of which null takes the key away.
 using Settings = std::vector<std::string>;
 
 /// Read a deck. Paths in it become absolute, relative to the deck's folder. Throws FileError if the file

@@ -157,9 +157,23 @@ Place place_of(const Node& root, std::string_view path) {
     return node->place;
 }
 
+namespace {
+
+void remove_entry(Node& map, std::string_view key) {
+    for (std::size_t i = map.keys.size(); i-- > 0;)
+        if (map.keys[i].text == key) {
+            map.keys.erase(map.keys.begin() + std::ptrdiff_t(i));
+            map.items.erase(map.items.begin() + std::ptrdiff_t(i));
+        }
+}
+
+}   // namespace
+
 void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mistakes) {
-    Node* node = &root;
+    Node *node = &root, *above = nullptr;
+    std::string last;
     for (const std::string& key : split(path, '.')) {
+        above = node, last = key;
         if (key.empty()) return mistakes.add(value.place, path, "is not a path of keys like \"numerics.spacing\"");
         if (node->kind == Node::Kind::list) {
             std::size_t index = 0;
@@ -181,6 +195,7 @@ void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mist
         node = node->find(key);
     }
     *node = value;
+    if (value.kind == Node::Kind::null && above && above->kind == Node::Kind::map) remove_entry(*above, last);
 }
 
 void apply_setting(Node& root, std::string_view setting, Mistakes& mistakes) {

@@ -70,7 +70,7 @@ Json make_cell_summary(const CellScene& scene) {
     const deck::Case& config = scene.config;
     Json summary;
     summary["name"] = config.about.name;
-    summary["scheme"] = deck::word_of(config.numerics.scheme);
+    summary["scheme"] = deck::word_of(config.scheme());
     summary["planar"] = scene.lumen.planar;
     summary["pressure_datum"] = config.aorta.pressure ? "absolute" : "gauge";
     Json openings = Json::object();

@@ -47,10 +47,9 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
 
 }   // namespace
 
-CellPlan plan_cells(const deck::Case& config, int threads) {
+CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) {
     std::optional<Vessel> vessel;
-    if (config.has_vessel()) vessel = read_vessel(config);
-    const Vessel* known = vessel ? &*vessel : nullptr;
+    if (config.has_vessel() && !known) known = &vessel.emplace(read_vessel(config));
     const Lumen lumen = make_cell_lumen(config, known);
     CellPlan plan{.cells = 0, .finest = config.numerics.spacing, .coarsest = config.numerics.spacing, .across_narrowest = 0, .memory = 0, .seconds = 0, .threads = threads};
     if (config.numerics.follows_vessel()) {

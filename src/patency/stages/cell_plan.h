@@ -3,6 +3,7 @@
 #pragma once
 
 #include "patency/config/case.h"
+#include "patency/stages/vessel.h"
 
 namespace patency {
 
@@ -16,6 +17,7 @@ struct CellPlan {
 };
 
 /// Of a deck of scheme cells. Throws DeckError for what a steady flow on cells cannot be, GeometryError.
-CellPlan plan_cells(const deck::Case& config, int threads);
+/// vessel: of the deck, if it was read before.
+CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* vessel = nullptr);
 
 }   // namespace patency

@@ -44,7 +44,7 @@ void start_scheme(Scene& scene) {
     const FlowDomain domain{scene.fluid, scene.wall, scene.ends, *scene.frame,
                             [&lumen = scene.lumen](const Vec3& x) { return lumen.distance.value(x); }};
     const bool is_mixed = scene.config.numerics.precision == deck::Precision::mixed;
-    const auto make = scene.config.numerics.scheme == deck::SchemeName::paper ? make_paper_scheme : make_flow_scheme;
+    const auto make = scene.config.scheme() == deck::SchemeName::paper ? make_paper_scheme : make_flow_scheme;
     scene.scheme = make(is_mixed ? Precision::mixed : Precision::double_precision, domain, scene.material, scene.numerics);
     scene.scheme->update_ends = [&scene](std::span<OpenEnd>, double time, double dt) { update_ends(scene, time, dt); };
 }

@@ -78,7 +78,7 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     const FlowMark to = mark_flow(scene);
     Json summary;
     summary["name"] = scene.config.about.name;
-    summary["scheme"] = deck::word_of(scene.config.numerics.scheme);
+    summary["scheme"] = deck::word_of(scene.config.scheme());
     summary["precision"] = deck::word_of(scene.config.numerics.precision);
     summary["planar"] = scene.numerics.planar;
     summary["time_s"] = scene.time;

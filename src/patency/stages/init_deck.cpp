@@ -194,20 +194,24 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     plan.settling = settling_of(plan.estimate, blood.kinematic_viscosity());
 
     // Started from the estimate it is steady sooner, as a rule, and then ends: this is the longest.
+    plan.config.numerics.scheme = deck::SchemeName::sph;
     plan.config.initial = {.velocity = deck::InitialVelocity::estimate, .speed = {}, .pressure = deck::InitialPressure::estimate};
     plan.config.numerics.convergence.emplace();
     plan.config.numerics.duration = written(plan.settling, "s", 2, true);
     const auto scene = coarsest_frame(plan.config, vessel);
 
     plan.budget_spacing = finest_spacing(*scene, settings.budget, 2 * inlet.radius);
-    plan.config.numerics.spacing = std::min(plan.budget_spacing, scene->numerics.spacing);
-    plan.price = plan_flow(*scene, settings.budget.threads, plan.config.numerics.spacing);
+    plan.moving_spacing = std::min(plan.budget_spacing, scene->numerics.spacing);
+    plan.price = plan_flow(*scene, settings.budget.threads, plan.moving_spacing);
     plan.fine_spacing = round_spacing(scene->lumen.narrowest / fewest_resolved);
     plan.fine_price = plan_flow(*scene, settings.budget.threads, plan.fine_spacing);
     for (const Branch& branch : along.lines.branches) plan.widths.push_back(widths_of(along, branch));
-    if (plan.budget_spacing > plan.config.numerics.spacing) plan.cuts = find_cuts(vessel, plan.budget_spacing);
+    if (plan.budget_spacing > plan.moving_spacing) plan.cuts = find_cuts(vessel, plan.budget_spacing);
     plan.short_ends = find_short_ends(vessel);
     plan.stent = propose_stent(along);
+    plan.config.numerics.scheme = deck::SchemeName::cells;
+    plan.config.numerics.across = cells_across;
+    plan.cells = plan_cells(plan.config, settings.budget.threads, &vessel);
     return plan;
 }
 

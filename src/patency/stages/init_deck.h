@@ -9,6 +9,7 @@
 
 #include "patency/config/case.h"
 #include "patency/shape/stent_library.h"
+#include "patency/stages/cell_plan.h"
 #include "patency/stages/estimate.h"
 #include "patency/stages/plan.h"
 #include "patency/stages/vessel.h"
@@ -58,8 +59,10 @@ struct InitPlan {
     double bed_flow;     ///< what the bed takes without a loss in the vessel [m^3/s]
     double settling;     ///< until a flow from rest is steady [s]
     Budget budget;
-    double budget_spacing;   ///< that the budget alone allows [m]
-    FlowPlan price;          ///< of the deck
+    CellPlan cells;          ///< what the deck costs
+    double moving_spacing;   ///< instead, of moving particles: what the budget pays for, but no coarser than the openings bear [m]
+    double budget_spacing;   ///< of moving particles, that the budget alone allows [m]
+    FlowPlan price;          ///< of moving particles
     double fine_spacing;     ///< at which nothing is under-resolved [m]
     FlowPlan fine_price;
     std::vector<Widths> widths;   ///< as the vessel's branches
@@ -67,15 +70,18 @@ struct InitPlan {
     std::vector<ShortEnd> short_ends;
     std::optional<StentProposal> stent;   ///< for the worst lesion; none where no design fits
 
-    double across(double diameter) const { return diameter / config.numerics.spacing; }
+    double across(double diameter) const { return diameter / moving_spacing; }   ///< moving particles
     bool is_within_budget() const { return price.seconds <= budget.seconds && price.memory <= budget.memory; }
 };
+
+/// Of the deck that is written: within some per cent of the limit, in a minute (docs/VERIFICATION.md).
+inline constexpr double cells_across = 12;
 
 /// Fewer particles across are marked as under-resolved.
 inline constexpr double fewest_resolved = 8;
 
-/// Decides everything for a vessel that was followed. The spacing is the finest that the budget pays for, but no coarser than
-/// the openings bear, whatever that costs. Throws GeometryError if no flow can be set up in it.
+/// Decides everything for a vessel that was followed: a steady flow on cells that follow it, and what moving particles would
+/// cost. Throws GeometryError if no flow can be set up in it.
 InitPlan plan_case(const Vessel& vessel, const InitSettings& settings);
 
 }   // namespace patency

@@ -40,7 +40,9 @@ std::string price(const FlowPlan& p, double spacing) {
         p.memory / 1e6, readable_time(p.seconds), p.threads, p.threads == 1 ? "" : "s");
 }
 
-/// How well something of that diameter is seen.
+double rounded(double length) { return 1e-6 * std::round(1e6 * length); }
+
+/// How well something of that diameter is seen by moving particles.
 std::string verdict(double across) {
     return across < 4 ? "not resolved: numbers there mean nothing" : across < fewest_resolved ? "under-resolved" : "";
 }
@@ -61,7 +63,7 @@ private:
 void describe_openings(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     out.add("Openings, and what patency estimate expects there (flow out of the vessel):");
     out.add("  {:<16} {:>11} {:>10} {:>11} {:>13} {:>7}", "name", "diameter mm", "area mm^2", "flow mL/min",
-            "pressure mmHg", "across");
+            "pressure mmHg", "moving");
     for (std::size_t k = 0; k < vessel.openings.size(); ++k) {
         const Opening& o = vessel.openings[k].opening;
         const double across = plan.across(2 * o.radius);
@@ -73,7 +75,7 @@ void describe_openings(Lines& out, const Vessel& vessel, const InitPlan& plan) {
 
 void describe_branches(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     const VesselAlong& along = *vessel.along;
-    out.add("Branches, diameters of the largest spheres that fit, particles across:");
+    out.add("Branches, diameters of the largest spheres that fit, moving particles across:");
     out.add("  {:<16} {:<16} {:>8} {:>8} {:>11} {:>8} {:>7} {:>7}", "name", "after", "from mm", "to mm", "narrowest",
             "mean", "across", "mean");
     for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
@@ -97,7 +99,7 @@ void describe_lesions(Lines& out, const Vessel& vessel, const InitPlan& plan) {
             k + 1, shown_name(along.lines.branches[l.branch].name), mm(l.throat_arc), mm(l.length()),
             100 * l.diameter_stenosis, 100 * l.area_stenosis);
         const double across = plan.across(l.minimum_diameter);
-        out.add("     minimum lumen diameter {:.3f} mm, healthy {:.3f} mm; {:.1f} particles across  {}",
+        out.add("     minimum lumen diameter {:.3f} mm, healthy {:.3f} mm; {:.1f} moving particles across  {}",
                 mm(l.minimum_diameter), mm(l.interpolated.diameter), across, verdict(across));
         const EstimatedLesion& e = plan.estimate.lesions[k];
         if (e.ffr)
@@ -107,8 +109,12 @@ void describe_lesions(Lines& out, const Vessel& vessel, const InitPlan& plan) {
 }
 
 void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
-    const double spacing = plan.config.numerics.spacing;
-    out.add("Price, for a budget of {}:", readable_time(plan.budget.seconds));
+    const double spacing = plan.moving_spacing;
+    const CellPlan& cells = plan.cells;
+    out.add("Price: about {:.2g} cells, {} to {} apart, {:.0f} in each local diameter; {:.0f} MB, about {} on {} thread{}", cells.cells,
+            format_quantity(rounded(cells.finest), "mm"), format_quantity(rounded(cells.coarsest), "mm"), cells_across, cells.memory / 1e6,
+            readable_time(cells.seconds), cells.threads, cells.threads == 1 ? "" : "s");
+    out.add("Moving particles instead, for a budget of {}:", readable_time(plan.budget.seconds));
     out.add("  {}", price(plan.price, spacing));
     if (!plan.is_within_budget())
         out.add(
@@ -253,12 +259,14 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
     text += bed_text(plan) + stent_text(vessel, plan);
     text += commented("initial: {velocity: estimate, pressure: estimate}", "the blood at the start: the flow of patency estimate");
     text += "numerics:\n" +
-            commented("  spacing: " + quantity(c.numerics.spacing, "mm"),
-                      fmt::format("between particles: {:.1f} across the narrowest place", plan.price.across_narrowest));
+            commented("  scheme: cells", "a steady flow on the cells of still particles; sph: moving ones, hours") +
+            commented(fmt::format("  across: {}", format_number(*c.numerics.across)), "cells in each local diameter") +
+            commented("  # spacing: " + quantity(plan.moving_spacing, "mm"),
+                      fmt::format("of sph, instead of across: {:.1f} in the narrowest place", plan.price.across_narrowest));
     text += commented("  duration: " + quantity(c.numerics.duration, "s"),
-                      "simulated, at the longest");
+                      "of sph, simulated, at the longest");
     text += commented(fmt::format("  convergence: {{tolerance_percent: {}}}", format_number(c.numerics.convergence->tolerance_percent)),
-                      "ends when flows and pressures at the openings have stopped moving");
+                      "of sph: ends when flows and pressures at the openings have stopped moving");
     text += "output:\n" + commented("  fields: [velocity, pressure]", "of the particles in the frames");
     return text + commented("  # interval: " + quantity(c.numerics.duration / 20, "s"),
                             "frames for ParaView; the last state only if absent");

@@ -157,7 +157,7 @@ void compute_initial_state(Scene& scene) {
     const VectorField velocity = velocity_field(scene);
     const PressureField pressure = pressure_field(scene);
     // The paper's scheme sums densities: its particles must weigh what their pressure says.
-    const bool is_summed = scene.config.numerics.scheme == deck::SchemeName::paper;
+    const bool is_summed = scene.config.scheme() == deck::SchemeName::paper;
     const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const Vec3& x = fluid.position[i];

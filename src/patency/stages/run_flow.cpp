@@ -249,7 +249,7 @@ private:
 }  // namespace
 
 Outcome run_flow(const deck::Case& config, const FlowStage& stage) {
-    return config.numerics.scheme == deck::SchemeName::cells ? run_cell_flow(config, stage) : FlowJob(config, stage).run();
+    return config.scheme() == deck::SchemeName::cells ? run_cell_flow(config, stage) : FlowJob(config, stage).run();
 }
 
 }  // namespace patency
