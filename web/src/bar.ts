@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scale of colours: always beside the vessel, always with its unit.
 import { make } from "./dom";
-import { format, ticksOf, type FieldStyle, type Range } from "./fields";
+import { digitsOf, ticksOf, type FieldStyle, type Range } from "./fields";
 import type { Colours } from "./shapes";
 
 const steps = 64;
@@ -51,7 +51,8 @@ export class Bar {
 
   private ticks(style: FieldStyle, range: Range): { value: number; text: string }[] {
     const values = ticksOf(range);
+    const digits = digitsOf(values);
     if (style.mark !== undefined && style.mark > range[0] && style.mark < range[1] && !values.some((v) => Math.abs(v - style.mark!) < 1e-9)) values.push(style.mark);
-    return values.map((value) => ({ value, text: format(value, range) }));
+    return values.map((value) => ({ value, text: value.toFixed(Math.abs(value - (style.mark ?? NaN)) < 1e-9 ? Math.max(2, digits) : digits) }));
   }
 }

@@ -2,6 +2,7 @@
 // Curves along the vessel: one quantity, every flow, the lesion shaded.
 import uPlot from "uplot";
 import { make } from "./dom";
+import { digitsOf } from "./fields";
 import { nearestArc, type Quantity, type Station } from "./pullback";
 
 export interface Line {
@@ -25,13 +26,6 @@ export interface ChartContent {
 
 const height = (): number => (window.innerWidth < 640 ? 230 : 400);
 const colour = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-
-/** Digits that tell neighbouring marks of an axis apart. */
-function digitsBetween(splits: number[]): number {
-  const step = Math.abs((splits[1] ?? 1) - (splits[0] ?? 0));
-  for (let digits = 0; digits < 6; digits++) if (Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) < 1e-6) return digits;
-  return 6;
-}
 
 export class Chart {
   readonly root = make("div", { className: "chart" });
@@ -84,12 +78,12 @@ export class Chart {
       width: this.host.clientWidth,
       height: height(),
       legend: { show: false },
-      scales: { x: { time: false } },
+      scales: { x: { time: false }, ...(content.quantity.least === undefined ? {} : { y: { range: (_, low) => [Math.min(content.quantity.least!, low - 0.02), 1.005] } }) },
       cursor: { y: false, drag: { x: true, y: false }, points: { size: 8 } },
       series,
       axes: [
         { ...axis, label: "Distance from the inlet, mm" },
-        { ...axis, label: quantity.unit ? `${quantity.label}, ${quantity.unit}` : quantity.label, size: 62, values: (_, splits) => splits.map((value) => value.toFixed(digitsBetween(splits))) },
+        { ...axis, label: quantity.unit ? `${quantity.label}, ${quantity.unit}` : quantity.label, size: 62, values: (_, splits) => splits.map((value) => value.toFixed(digitsOf(splits))) },
       ],
       hooks: {
         drawClear: [(u) => this.shade(u, content)],

@@ -15,8 +15,8 @@ export class Curves {
 
   private constructor(private readonly model: Model, private readonly onHover: (station: Station | undefined, line: Station[], words: string) => void) {
     this.chart = new Chart((arc) => this.hovered(arc));
-    this.outlet = chooser("Along the vessel to", [], () => this.show());
-    this.quantity = chooser("Quantity", [], () => this.show());
+    this.outlet = chooser("to", [], () => this.show());
+    this.quantity = chooser("Along the vessel", [], () => this.show());
     this.root.append(make("div", { className: "tools" }, this.quantity.root, this.outlet.root), this.chart.root);
   }
 
@@ -31,6 +31,9 @@ export class Curves {
     fill(curves.outlet.select, model.outlets.map((label, k) => ({ value: String(k + 1), label })));
     fill(curves.quantity.select, quantities.filter(({ of }) => known.some((s) => of(s.values) !== undefined)).map(({ key, label }) => ({ value: key, label })));
     curves.outlet.select.value = String(curves.outletOfLesion());
+    // An FFR far from its bands is a flat line on its scale; the pressure says more then.
+    const ffr = known.map((s) => s.values["ffr"]).filter((value) => value !== undefined);
+    if (ffr.length && ffr.every((value) => value > 0.95)) curves.quantity.select.value = "pressure";
     return curves;
   }
 

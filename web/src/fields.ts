@@ -42,14 +42,21 @@ export function rangeOf(fields: Float32Array[], style: FieldStyle): Range {
   return high > low ? [low, high] : [low - 0.5, low + 0.5];
 }
 
-/** Five or so round numbers in a range. */
+/** Round numbers in a range, at least four: the coarsest that are. */
 export function ticksOf([low, high]: Range): number[] {
-  const raw = (high - low) / 4;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 2.5, 5, 10].map((factor) => factor * power).find((s) => s >= raw * 0.999) ?? raw;
-  const ticks: number[] = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) ticks.push(k * step);
-  return ticks;
+  const power = 10 ** Math.floor(Math.log10(high - low));
+  const steps = [1, 0.5, 0.25, 0.2, 0.1].map((factor) => factor * power);
+  const first = (step: number): number => Math.ceil(low / step - 1e-9);
+  const last = (step: number): number => Math.floor(high / step + 1e-9);
+  const step = steps.find((s) => last(s) - first(s) >= 3) ?? steps.at(-1)!;
+  return Array.from({ length: last(step) - first(step) + 1 }, (_, k) => (first(step) + k) * step);
+}
+
+/** Digits behind the point that a row of evenly spread marks needs. */
+export function digitsOf(marks: number[]): number {
+  const step = Math.abs((marks[1] ?? 1) - (marks[0] ?? 0));
+  for (let digits = 0; digits < 6; digits++) if (Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) < 1e-6) return digits;
+  return 6;
 }
 
 /** With as many digits as tell neighbours of that range apart. */

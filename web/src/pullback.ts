@@ -15,6 +15,7 @@ export interface Quantity {
   key: string;
   label: string;
   unit: string;
+  least?: number; // the axis reaches down to it, or farther
   of: (values: Record<string, number>) => number | undefined;
   estimate?: (values: Record<string, number>) => number | undefined;
 }
@@ -26,7 +27,7 @@ const scaled = (column: string, scale: number) => (values: Record<string, number
 };
 
 export const quantities: Quantity[] = [
-  { key: "ffr", label: "FFR", unit: "", of: scaled("ffr", 1) },
+  { key: "ffr", label: "FFR", unit: "", least: 0.7, of: scaled("ffr", 1) },
   { key: "pressure", label: "Pressure", unit: "mmHg", of: scaled("pressure_pa", mmHg), estimate: scaled("estimated_pressure_pa", mmHg) },
   { key: "diameter", label: "Diameter of the section's area", unit: "mm", of: (v) => (v["area_m2"] === undefined ? undefined : 2e3 * Math.sqrt(v["area_m2"] / Math.PI)) },
   { key: "flow", label: "Flow", unit: "mL/min", of: scaled("flow_m3_per_s", 6e7) },

@@ -10,6 +10,8 @@ const groups: Record<PieceName, string> = { wall: "On the wall", cut: "On a cut 
 const pieceNames: PieceName[] = ["wall", "cut", "streamlines"];
 const deployed = "deploy"; // the part's key, and the group of its fields
 
+const isMetal = (body: string): boolean => /stent|ring|strut/i.test(body);
+
 export interface Seen {
   objects: Object3D[];
   targets: Mesh[];
@@ -100,13 +102,15 @@ export class Vessel {
   }
 
   private addBodies(seen: Seen, name: string, frame: number, planes: Plane[]): void {
+    const context = [...this.flows.values()][0]?.get("wall");
+    if (context && this.bodies.every((body) => isMetal(body.name))) this.add(seen, surfaceOf(context, { colour: 0x8fa3b8, opacity: 0.18, planes }), undefined);
     for (const body of this.bodies) {
       const piece = body.frames[Math.min(frame, body.frames.length - 1)]!;
       const values = piece.fields.get(name);
-      const isMetal = /stent|ring|strut/i.test(body.name);
+      const metal = isMetal(body.name);
       const look = {
         colours: values && seen.style ? this.colours.of(values, seen.style.scale, seen.range) : undefined,
-        colour: isMetal ? 0x9aa3ad : 0xd8a08f, opacity: isMetal ? 1 : 0.5, planes: isMetal ? [] : planes,
+        colour: metal ? 0x9aa3ad : 0xd8a08f, opacity: metal ? 1 : 0.5, planes: metal ? [] : planes,
       };
       if (piece.triangles.length) this.add(seen, surfaceOf(piece, look), values);
       else seen.objects.push(pointsOf(piece, look));

@@ -2,7 +2,7 @@
 // The canvas in space: camera, light, picking, the ring that marks a place, clipping, pictures. Knows nothing of flows.
 import {
   AmbientLight, Box3, DirectionalLight, type Mesh, MeshBasicMaterial, Mesh as ThreeMesh, type Object3D, PerspectiveCamera, Plane,
-  Quaternion, Raycaster, Scene, Sphere, TorusGeometry, Vector2, Vector3, WebGLRenderer,
+  Quaternion, Raycaster, Scene, TorusGeometry, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
 import { make } from "./dom";
@@ -15,6 +15,7 @@ export interface Hit {
   vertex: number; // the nearest corner of the triangle
 }
 
+const besideBar = 90; // pixels on the right that the colour bar takes
 const fieldOfView = 22; // degrees: little perspective, as in an angiogram
 
 export class Viewer {
@@ -29,7 +30,6 @@ export class Viewer {
   private content: Object3D[] = [];
   private targets: Mesh[] = [];
   private box = new Box3(new Vector3(-10, -10, -10), new Vector3(10, 10, 10));
-  private sphere = new Sphere(new Vector3(), 10);
   private isClipped = false;
   private isDue = false;
 
@@ -68,7 +68,6 @@ export class Viewer {
     const box = new Box3();
     for (const object of content) box.expandByObject(object);
     if (!box.isEmpty()) this.box = box;
-    this.box.getBoundingSphere(this.sphere);
     this.draw();
   }
 
@@ -76,15 +75,13 @@ export class Viewer {
   look(look: Look): void {
     const [toward, up] = [new Vector3(...look.toward), new Vector3(...look.up)];
     const right = up.clone().cross(toward);
-    const spread = (axis: Vector3): { middle: number; half: number } => {
-      const places = this.sample().map((x) => x.dot(axis));
-      const [low, high] = [Math.min(...places), Math.max(...places)];
-      return { middle: (low + high) / 2, half: (high - low) / 2 };
-    };
-    const [x, y, z] = [spread(right), spread(up), spread(toward)];
+    const [x, y, z] = [this.spread(right), this.spread(up), this.spread(toward)];
     this.controls.target.set(0, 0, 0).addScaledVector(right, x.middle).addScaledVector(up, y.middle).addScaledVector(toward, z.middle);
     const margin = 1.12;
-    this.place(toward, up, margin * Math.max(y.half, x.half / this.camera.aspect), z.half);
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const half = margin * Math.max(y.half, (x.half * height) / Math.max(width - besideBar, 1));
+    this.controls.target.addScaledVector(right, (besideBar * half) / Math.max(height, 1));
+    this.place(toward, up, half, z.half);
   }
 
   /** Comes near to a place without turning. */
@@ -109,8 +106,8 @@ export class Viewer {
   clip(isOn: boolean, share: number): void {
     if (isOn && !this.isClipped) this.plane.normal.copy(this.controls.target).sub(this.camera.position).normalize();
     this.isClipped = isOn;
-    const { center, radius } = this.sphere;
-    this.plane.constant = isOn ? -this.plane.normal.dot(center) + radius * (1 - 2 * share) : Infinity;
+    const { middle, half } = this.spread(this.plane.normal);
+    this.plane.constant = isOn ? -middle + half * (1 - 2 * share) : Infinity;
     this.draw();
   }
   clippingPlanes(): Plane[] {
@@ -135,6 +132,13 @@ export class Viewer {
       this.isDue = false;
       this.renderer.render(this.scene, this.camera);
     });
+  }
+
+  /** How far what is seen reaches along a direction. */
+  private spread(axis: Vector3): { middle: number; half: number } {
+    const places = this.sample().map((x) => x.dot(axis));
+    const [low, high] = [Math.min(...places), Math.max(...places)];
+    return { middle: (low + high) / 2, half: (high - low) / 2 };
   }
 
   /** Points of what is seen, enough to know how far it reaches. */

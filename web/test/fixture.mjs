@@ -37,7 +37,7 @@ export class Fixture {
     };
     write(join(out, "summary.json"), { name: summary.name, estimate, before, deploy, after: read(join(out, "after", "summary.json")) });
     const timing = read(join(out, "timing.json"));
-    write(join(out, "timing.json"), { ...timing, deploy: { wall_s: 61.5, cpu_s: 120.25 }, after: read(join(out, "after", "timing.json")) });
+    write(join(out, "timing.json"), { ...timing, deploy: { wall_s: 61.5, cpu_s: 120.3 }, after: read(join(out, "after", "timing.json")) });
     writeFrames(out, before.lesions[0]);
     this.patency("report", out);
     return out;

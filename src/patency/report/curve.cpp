@@ -57,6 +57,7 @@ std::string draw_pullback(const PullbackPlot& plot) {
     for (const PullbackCurve& curve : plot.curves)
         for (std::size_t k = 0; k < curve.x.size(); ++k) x.include(curve.x[k]), y.include(curve.y[k]);
     if (!(x.high > x.low)) return {};
+    if (plot.least) y.include(*plot.least);
     y.widen(0.06);
     std::string svg = fmt::format("<svg class=\"pullback\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} along the vessel\">\n", width, height, escaped(plot.y_label));
     for (const Span& span : plot.spans)

@@ -2,6 +2,7 @@
 // Curves along a vessel as SVG, for the page without a script and on paper. Colours are the style sheet's.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ struct Span {
     std::string style;   ///< "lesion", "stent"
 };
 
-/// Axes fit the curves; `most` and `least`, if the curves reach them, end the axis there (an FFR begins at 1).
+/// Axes fit the curves.
 struct PullbackPlot {
     std::string x_label, y_label;
     std::vector<PullbackCurve> curves;
     std::vector<Span> spans;
+    std::optional<double> least{};   ///< the axis reaches down to it, or farther
     std::vector<double> levels;   ///< horizontal lines, drawn where the axis has them
 };
 

@@ -25,6 +25,12 @@ constexpr Ending endings[] = {
     {"_atm", {"atm", 1, 1}}, {"_mmhg", {"mmHg", 1, 2}}, {"_m", {"mm", 1e3, 3}}, {"_s", {"s", 1, 4}}, {"_j", {"mJ", 1e3, 3}}, {"_n", {"N", 1, 3}},
 };
 
+/// Without the sign of a zero.
+std::string rounded(double value, int digits) {
+    std::string text = fmt::format("{:.{}f}", value, digits);
+    return text.starts_with('-') && text.find_first_not_of("-0.") == text.npos ? text.substr(1) : text;
+}
+
 const Ending* ending_of(std::string_view key) {
     for (const Ending& e : endings)
         if (key.ends_with(e.end)) return &e;
@@ -83,8 +89,8 @@ std::string Figures::text(const std::string& pointer) const {
 
 std::string Figures::number(const std::string& pointer, const Measure& m) const {
     if (!has(pointer)) return std::string(dash);
-    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{:.{}f}</data>", value(pointer),
-                       escaped(pointer), m.scale, m.digits, value(pointer) * m.scale, m.digits);
+    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{}</data>", value(pointer),
+                       escaped(pointer), m.scale, m.digits, rounded(value(pointer) * m.scale, m.digits));
 }
 
 std::string Figures::with_unit(const std::string& pointer, const Measure& m) const {
@@ -95,8 +101,8 @@ std::string Figures::with_unit(const std::string& pointer, const Measure& m) con
 std::string Figures::ratio(const std::string& pointer, const std::string& over, const Measure& m) const {
     if (!has(pointer) || !has(over) || value(over) == 0) return std::string(dash);
     const double ratio = value(pointer) / value(over);
-    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-over=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{:.{}f}</data>", ratio,
-                       escaped(pointer), escaped(over), m.scale, m.digits, ratio * m.scale, m.digits);
+    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-over=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{}</data>", ratio,
+                       escaped(pointer), escaped(over), m.scale, m.digits, rounded(ratio * m.scale, m.digits));
 }
 
 std::string Figures::scientific(const std::string& pointer, int digits, double sign) const {

@@ -31,16 +31,17 @@ std::string ffr_scale(const Results& results, const Pointers& pointers, const st
     constexpr double low = 0.5, width = 300, left = 10;
     const Figures figures(results.summary);
     const auto x = [&](double ffr) { return left + (std::min(std::max(ffr, low), 1.0) - low) / (1 - low) * width; };
-    std::string svg = "<svg class=\"ffr-scale\" viewBox=\"0 0 320 62\" role=\"img\" aria-label=\"FFR on a scale from 0.5 to 1\">";
+    std::string svg = "<svg class=\"ffr-scale\" viewBox=\"0 0 320 66\" role=\"img\" aria-label=\"FFR on a scale from 0.5 to 1\">";
     for (const auto& [from, to, style] : {std::tuple{0.5, 0.75, "low"}, {0.75, 0.8, "grey"}, {0.8, 1.0, "high"}})
         svg += fmt::format("<rect class=\"band {}\" x=\"{:.1f}\" y=\"22\" width=\"{:.1f}\" height=\"10\"/>", style, x(from), x(to) - x(from));
     for (const double tick : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0})
-        svg += fmt::format("<path class=\"tick\" d=\"M{0:.1f} 32 v4\"/><text x=\"{0:.1f}\" y=\"50\" text-anchor=\"middle\">{1:.2f}</text>", x(tick), tick);
+        svg += fmt::format("<path class=\"tick\" d=\"M{0:.1f} 32 v16\"/><text x=\"{0:.1f}\" y=\"60\" text-anchor=\"middle\">{1:.2f}</text>", x(tick), tick);
     if (figures.has(band + "/0"))
-        svg += fmt::format("<path class=\"whisker\" d=\"M{0:.1f} 22 v-5 M{0:.1f} 19.5 H{1:.1f} M{1:.1f} 22 v-5\"/>", x(figures.value(band + "/0")), x(figures.value(band + "/1")));
+        svg += fmt::format("<path class=\"whisker\" d=\"M{0:.1f} 8 v-6 M{0:.1f} 5 H{1:.1f} M{1:.1f} 8 v-6\"/>", x(figures.value(band + "/0")), x(figures.value(band + "/1")));
     for (std::size_t k = 0; k < pointers.size(); ++k)
         if (pointers[k] && figures.has(*pointers[k]))
-            svg += fmt::format("<path class=\"mark {}\" d=\"M{:.1f} 34 l-6 -14 h12 z\"/>", results.flows[k].key, x(figures.value(*pointers[k])));
+            svg += fmt::format("<path class=\"mark {}\" d=\"M{:.1f} {}\"/>", results.flows[k].key, x(figures.value(*pointers[k])),
+                               results.flows[k].key == "after" ? "30 l-6 14 h12 z" : "25 l-6 -14 h12 z");   // above the bar, and below it
     return svg + "</svg>";
 }
 
@@ -73,34 +74,35 @@ std::string ffr_card(const Results& results, const Focus& focus) {
     return card("FFR behind the lesion", change(results, pointers, {"", 1, 2}), more, "wide");
 }
 
-struct Criterion {
-    const char* key;
-    bool (*is_met)(double);
-    const char *met, *missed;
+/// A number of the deployment; some have a criterion, most have none that is agreed on.
+struct StentFact {
+    const char *key, *label;
+    bool (*is_met)(double) = nullptr;
+    const char *met = "", *missed = "";
 };
 // Expansion: ILUMIEN III's rule against the reference. Kinetic to internal energy: the design's own bar for a deployment that is
 // slow enough. Struts off the wall: any is worth a look, no number of them is agreed on.
-constexpr Criterion criteria[] = {
-    {"expansion_percent", [](double v) { return v >= 90; }, "at least 90 % of the reference", "below 90 % of the reference"},
-    {"malapposed_percent", [](double v) { return v < 0.5; }, "struts lie against the wall", "some struts stand off the wall"},
-    {"kinetic_to_internal", [](double v) { return v < 0.05; }, "deployed slowly enough", "deployed too fast to be trusted"},
-    {"penetration_over_spacing", [](double v) { return v < 0.5; }, "metal and wall keep apart", "metal sinks into the wall"},
+constexpr StentFact stent_facts[] = {
+    {"minimum_diameter_mm", "Minimum diameter"},
+    {"expansion_percent", "Expansion", [](double v) { return v >= 90; }, "at least 90 % of the reference", "below 90 % of the reference"},
+    {"malapposed_percent", "Struts off the wall", [](double v) { return v < 0.5; }, "the stent lies against the wall", "some struts stand off the wall"},
+    {"recoil_percent", "Acute recoil"},
+    {"foreshortening_percent", "Foreshortening"},
+    {"dogboning_percent", "Dogboning"},
+    {"penetration_over_spacing", "Overlap over spacing", [](double v) { return v < 0.5; }, "metal and wall keep apart", "metal sinks into the wall"},
+    {"kinetic_to_internal", "Kinetic over internal energy", [](double v) { return v < 0.05; }, "deployed slowly enough", "deployed too fast to be trusted"},
 };
 
 std::string stent_card(const Results& results) {
     if (!results.has_deployment) return {};
     const Figures figures(results.summary);
     std::string items;
-    for (const char* key : {"minimum_diameter_mm", "expansion_percent", "malapposed_percent", "recoil_percent", "foreshortening_percent", "penetration_over_spacing", "kinetic_to_internal"}) {
-        const std::string pointer = "/deploy" + step(key);
+    for (const StentFact& fact : stent_facts) {
+        const std::string pointer = "/deploy" + step(fact.key);
         if (!figures.has(pointer)) continue;
-        std::string verdict;
-        for (const Criterion& c : criteria)
-            if (std::string_view(c.key) == key) {
-                const bool is_met = c.is_met(figures.value(pointer));
-                verdict = fmt::format("<span class=\"verdict {}\">{}</span>", is_met ? "good" : "look", is_met ? c.met : c.missed);
-            }
-        items += fmt::format("<li><span class=\"what\">{}</span> <b>{}</b> {}</li>", words_of(key), figures.with_unit(pointer, measure_of(key)), verdict);
+        const bool is_met = fact.is_met && fact.is_met(figures.value(pointer));
+        const std::string verdict = fact.is_met ? fmt::format("<span class=\"verdict {}\">{}</span>", is_met ? "good" : "look", is_met ? fact.met : fact.missed) : "";
+        items += fmt::format("<li><span class=\"what\">{}</span> <b>{}</b> {}</li>", fact.label, figures.with_unit(pointer, measure_of(fact.key)), verdict);
     }
     return "<article class=\"card wide stent\"><h3>Stent</h3><ul class=\"facts\">" + items + "</ul></article>\n";
 }
@@ -154,7 +156,7 @@ std::string glance_section(const Results& results) {
         if (is_gone) cards += card("After", "no lesion", note("The lumen no longer narrows by a quarter there, so there is no place behind a lesion to read FFR at; the table of branches has the FFR at each branch's end."), "wide");
     }
     cards += stent_card(results);
-    return "<section id=\"glance\">\n" + lead(results, focus) + (cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n") + "</section>\n";
+    return "<section id=\"glance\">\n" + lead(results, focus) + (cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n") + quality_strip(results) + "</section>\n";
 }
 
 }   // namespace patency

@@ -47,7 +47,7 @@ std::string footer(std::string_view version) {
     return fmt::format("<footer><p><b>Research use only.</b> Not a medical device: no basis for treating a patient.</p>\n"
                        "<p>FFR is the mean pressure behind a lesion over the mean aortic pressure, both absolute, at hyperaemia; it is read 15 mm behind the lesion's end "
                        "(10 to 20 mm is usual: Nørgaard et al. 2019). The marks at 0.75 and 0.80 are usual bands, no verdict; after a stent there is no agreed limit, 0.90 is a usual aim "
-                       "(FFR-SEARCH 2021). The gauge pressure ratio is a ratio of pressures above the lowest outlet's, and no FFR. WSS is the mean wall shear stress vector's length, "
+                       "(FFR-SEARCH 2021). Pressures count from the deck's zero, but for FFR. The gauge pressure ratio is a ratio of pressures above the lowest outlet's, and no FFR. WSS is the mean wall shear stress vector's length, "
                        "TAWSS the mean of its length, OSI = ½ (1 − WSS/TAWSS).</p>\n"
                        "<p>Made by patency {}. Every number here is one of summary.json, or a ratio of two.</p>\n<div id=\"licences\"></div></footer>\n", escaped(version));
 }

@@ -20,35 +20,56 @@ std::string item(Mark mark, const std::string& what, const std::string& text) {
                        styles[int(mark)], signs[int(mark)], what, text);
 }
 
-std::string mass(const Figures& f, const std::string& path) {
-    constexpr double bar = 0.2;   // % in a steady state
+constexpr double most_imbalance = 0.2;   // % in a steady state
+constexpr double fewest_across = 8;      // what the flow stage marks as under-resolved
+
+Mark mark_of_mass(const Figures& f, const std::string& path) {
     const std::string pointer = path + "/mass_imbalance_percent";
-    if (!f.has(pointer)) return {};
-    return item(f.value(pointer) < bar ? Mark::good : Mark::look, "Mass balance", f.with_unit(pointer, {"%", 1, 3}) + " of the flow is out of balance");
+    return !f.has(pointer) ? Mark::plain : f.value(pointer) < most_imbalance ? Mark::good : Mark::look;
 }
 
-std::string convergence(const Figures& f, const Json& part, const std::string& path) {
-    if (!part.contains("convergence")) return item(Mark::plain, "Convergence", "not watched: the run ended at the deck's duration");
-    const bool is_settled = part["convergence"].value("is_converged", false);
-    return item(is_settled ? Mark::good : Mark::look, "Convergence",
-                fmt::format("{}; openings last moved by {}", is_settled ? "settled" : "<b>not settled</b>", f.with_unit(path + "/convergence/change_percent", {"%", 1, 3})));
+Mark mark_of_convergence(const Json& part) {
+    return !part.contains("convergence") ? Mark::plain : part["convergence"].value("is_converged", false) ? Mark::good : Mark::look;
 }
 
-std::string resolution(const Figures& f, const Json& part, const std::string& path) {
-    constexpr double fewest = 8;   // what the flow stage marks as under-resolved
-    const std::string pointer = path + "/particles/across_narrowest";
-    if (!f.has(pointer)) return {};
-    std::string places;
+/// Pointers of the branches and lesions with too few particles across.
+std::vector<std::string> coarse_places(const Json& part, const std::string& path) {
+    std::vector<std::string> places;
     for (const char* kind : {"branches", "lesions"})
         if (part.contains(kind))
             for (std::size_t k = 0; k < part[kind].size(); ++k)
-                if (part[kind][k].value("is_under_resolved", false)) {
-                    const std::string here = path + "/" + kind + step(k);
-                    const std::string name = std::string_view(kind) == "lesions" ? "lesion in " + f.text(here + "/branch") : f.text(here + "/name");
-                    places += fmt::format("{}{} ({})", places.empty() ? "" : ", ", name, f.number(here + "/particles_across", as_across));
-                }
-    const bool is_fine = f.value(pointer) >= fewest && places.empty();
-    return item(is_fine ? Mark::good : Mark::look, "Resolution",
+                if (part[kind][k].value("is_under_resolved", false)) places.push_back(path + "/" + kind + step(k));
+    return places;
+}
+
+Mark mark_of_resolution(const Figures& f, const Json& part, const std::string& path) {
+    const std::string pointer = path + "/particles/across_narrowest";
+    if (!f.has(pointer)) return Mark::plain;
+    return f.value(pointer) >= fewest_across && coarse_places(part, path).empty() ? Mark::good : Mark::look;
+}
+
+std::string mass(const Figures& f, const std::string& path) {
+    const std::string pointer = path + "/mass_imbalance_percent";
+    if (!f.has(pointer)) return {};
+    return item(mark_of_mass(f, path), "Mass balance", f.with_unit(pointer, {"%", 1, 3}) + " of the flow is out of balance");
+}
+
+std::string convergence(const Figures& f, const Json& part, const std::string& path) {
+    const Mark mark = mark_of_convergence(part);
+    if (mark == Mark::plain) return item(mark, "Convergence", "not watched: the run ended at the deck's duration");
+    return item(mark, "Convergence", fmt::format("{}; openings last moved by {}", mark == Mark::good ? "settled" : "<b>not settled</b>",
+                                                 f.with_unit(path + "/convergence/change_percent", {"%", 1, 3})));
+}
+
+std::string resolution(const Figures& f, const Json& part, const std::string& path) {
+    const std::string pointer = path + "/particles/across_narrowest";
+    if (!f.has(pointer)) return {};
+    std::string places;
+    for (const std::string& here : coarse_places(part, path)) {
+        const std::string name = f.has(here + "/drop_pa") ? "lesion in " + f.text(here + "/branch") : f.text(here + "/name");
+        places += fmt::format("{}{} ({})", places.empty() ? "" : ", ", name, f.number(here + "/particles_across", as_across));
+    }
+    return item(mark_of_resolution(f, part, path), "Resolution",
                 f.number(pointer, as_across) + " particles across the narrowest place" + (places.empty() ? "" : "; fewer than 8 at: " + places));
 }
 
@@ -89,7 +110,26 @@ std::string assumptions(const std::string& text) {
     return item(Mark::plain, "Taken as given", list);
 }
 
+/// The worse of two.
+Mark worse(Mark a, Mark b) { return a == Mark::look || b == Mark::look ? Mark::look : a == Mark::good || b == Mark::good ? Mark::good : Mark::plain; }
+
 }   // namespace
+
+std::string quality_strip(const Results& results) {
+    const Figures figures(results.summary);
+    Mark mass = Mark::plain, convergence = Mark::plain, resolution = Mark::plain;
+    for (const FlowPart& flow : results.flows) {
+        mass = worse(mass, mark_of_mass(figures, flow.path));
+        convergence = worse(convergence, mark_of_convergence(results.part(flow)));
+        resolution = worse(resolution, mark_of_resolution(figures, results.part(flow), flow.path));
+    }
+    const auto entry = [](Mark mark, const char* good, const char* look) {
+        return mark == Mark::plain ? "" : fmt::format("<li class=\"{}\"><span class=\"sign\" aria-hidden=\"true\">{}</span>{}</li>", mark == Mark::good ? "good" : "look", mark == Mark::good ? "✓" : "!", mark == Mark::good ? good : look);
+    };
+    const std::string items = entry(mass, "mass is in balance", "mass is out of balance") + entry(convergence, "the flow has settled", "the flow has not settled") +
+                              entry(resolution, "fine enough everywhere", "some places are under-resolved");
+    return items.empty() ? "" : "<ul class=\"strip-of-checks\">" + items + "<li><a href=\"#quality\">How far to trust it</a></li></ul>\n";
+}
 
 std::string quality_section(const Results& results) {
     const Figures figures(results.summary);

@@ -74,7 +74,7 @@ std::vector<DeployedBody> read_bodies(const fs::path& folder) {
 const Json& Results::part(const FlowPart& flow) const { return summary.at(Json::json_pointer(flow.path)); }
 
 Results read_results(const fs::path& folder) {
-    Results results{.root = folder, .name = {}, .summary = read_summary(folder / "summary.json"), .timing = {}, .flows = {}};
+    Results results{.root = folder, .name = {}, .summary = read_summary(folder / "summary.json"), .timing = {}, .summary_text = read_file(folder / "summary.json"), .flows = {}};
     if (fs::exists(folder / "timing.json")) results.timing = read_summary(folder / "timing.json");
     const auto has = [&](const char* key) { return results.summary.is_object() && results.summary.contains(key) && results.summary[key].is_object(); };
     if (has("before")) results.flows.push_back(read_flow(folder, "before", "Before"));

@@ -42,6 +42,7 @@ struct Results {
     std::filesystem::path root;
     std::string name;                 ///< of the case
     nlohmann::ordered_json summary, timing;
+    std::string summary_text;         ///< summary.json as it is
     std::vector<FlowPart> flows;
     bool has_deployment = false;      ///< summary.json has a part "deploy"
     std::vector<DeployedBody> bodies{};

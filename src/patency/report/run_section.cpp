@@ -53,10 +53,9 @@ std::string run_section(const Results& results) {
                                  results.flows.size() > 1 ? " (" + flow.title + ")" : "", escaped(flow.deck));
         for (const TextFile& file : flow.tables) files += fmt::format("<li><a class=\"needs-script\" download=\"{0}\" data-file=\"{1}\">{1}</a></li>", escaped(file.name.substr(file.name.rfind('/') + 1)), escaped(file.name));
     }
-    const std::string summary = results.summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    files = fmt::format("<li><a download=\"summary.json\" href=\"data:application/json;base64,{}\">summary.json</a></li>", base64(summary)) + files;
+    files = fmt::format("<li><a download=\"summary.json\" href=\"data:application/json;base64,{}\">summary.json</a></li>", base64(results.summary_text)) + files;
     if (!origin.empty()) origin = table("What this was made from (XXH64)", {"File", "Hash"}, origin);
-    return "<section id=\"run\">\n<h2>This run</h2>\n<div class=\"downloads\"><h3>Files</h3><ul>" + files + "</ul></div>\n" + times_table(results) + origin + decks + "</section>\n";
+    return "<section id=\"run\">\n<h2>This run</h2>\n<div class=\"downloads\"><h3>Files</h3><ul>" + files + "</ul></div>\n" + "<div class=\"small-tables\">" + times_table(results) + origin + "</div>\n" + decks + "</section>\n";
 }
 
 }   // namespace patency

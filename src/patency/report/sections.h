@@ -10,6 +10,7 @@ namespace patency {
 
 std::string glance_section(const Results& results);     ///< vessel, lesion, before -> after, how the stent sits
 std::string quality_section(const Results& results);    ///< what speaks for and against these numbers
+std::string quality_strip(const Results& results);      ///< the same in a line of marks, for the first screen
 std::string static_section(const Results& results);     ///< pictures and curves that need no script
 std::string tables_section(const Results& results);     ///< lesions, flow split, the paper's table VI, stent, outlets, resolution
 std::string run_section(const Results& results);        ///< deck, versions, input hashes, times, downloads

@@ -95,8 +95,8 @@ std::string curves(const Results& results) {
     const auto& part = results.part(first);
     const auto worst = worst_lesion(part);
     const double outlet = outlet_through(*first.pullback, part, worst);
-    PullbackPlot pressure{.x_label = "Distance from the inlet, mm", .y_label = "Pressure, mmHg", .curves = {}, .spans = {}, .levels = {}}, ffr = pressure;
-    ffr.y_label = "FFR", ffr.levels = {0.8};
+    PullbackPlot pressure{.x_label = "Distance from the inlet, mm", .y_label = "Pressure, mmHg", .curves = {}, .spans = {}, .least = {}, .levels = {}}, ffr = pressure;
+    ffr.y_label = "FFR", ffr.levels = {0.8}, ffr.least = 0.7;
     std::string legend;
     for (const FlowPart& flow : results.flows) {
         if (!flow.pullback) continue;
@@ -116,7 +116,7 @@ std::string curves(const Results& results) {
     }
     const auto names = outlet_names(part);
     const std::size_t number = std::size_t(outlet) - 1;
-    return fmt::format("<h3>Along the vessel to {}</h3>\n<p class=\"legend\">{}{}</p>\n{}{}", number < names.size() ? escaped(names[number]) : "the outlet", legend,
+    return fmt::format("<div class=\"still-curves\"><h3>Along the vessel to {}</h3>\n<p class=\"legend\">{}{}</p>\n{}{}</div>\n", number < names.size() ? escaped(names[number]) : "the outlet", legend,
                        worst ? " <span class=\"key lesion\">lesion</span>" : "", draw_pullback(pressure), draw_pullback(ffr));
 }
 

@@ -45,7 +45,7 @@ std::string split_table(const Results& results) {
                                     [&](const std::string& path) { return f.number(path + at + "/mean_pressure_pa", as_mmHg); },
                                     [&](const std::string& path) { return f.number(path + at + "/mean_velocity_m_per_s", as_m_per_s); }}));
     }
-    return table("Openings: where the blood goes (out is positive; pressures as the deck counts them)",
+    return table("Openings (out is positive)",
                  with_flows(results, {"Opening"}, {fmt::format("Flow, {}", flow.unit), "Share, %", "Pressure, mmHg", "Velocity, m/s"}), rows);
 }
 
@@ -76,15 +76,15 @@ std::string lesion_table(const Results& results) {
         if (!part.contains("lesions")) continue;
         for (std::size_t k = 0; k < part["lesions"].size(); ++k) {
             const std::string at = flow.path + "/lesions" + step(k);
-            rows += table_row({results.flows.size() > 1 ? fmt::format("<span class=\"{}\">{}</span>", flow.key, flow.title) : fmt::format("{}", k + 1), f.text(at + "/branch"),
-                               f.number(at + "/throat_arc_mm", as_mm), f.number(at + "/length_mm", as_mm), f.number(at + "/minimum_diameter_mm", as_mm),
+            const std::string when = results.flows.size() > 1 ? fmt::format("<span class=\"{}\">{}</span> ", flow.key, flow.title) : "";
+            rows += table_row({when + f.text(at + "/branch"), f.number(at + "/throat_arc_mm", as_mm), f.number(at + "/length_mm", as_mm), f.number(at + "/minimum_diameter_mm", as_mm),
                                f.number(at + "/diameter_stenosis_percent", as_percent), f.number(at + "/area_stenosis_percent", as_percent),
                                f.number(at + "/flow_m3_per_s", as_mL_per_min), f.number(at + "/drop_pa", as_mmHg), f.number(at + "/ffr", as_ratio),
                                f.number(at + "/read_arc_mm", as_mm), f.number(at + "/gauge_pressure_ratio", as_ratio)});
         }
     }
     if (rows.empty()) return {};
-    return table("Lesions", {results.flows.size() > 1 ? "" : "No.", "Branch", "Throat at, mm", "Length, mm", "Minimum lumen, mm", "Diameter stenosis, %", "Area stenosis, %", "Flow, mL/min",
+    return table("Lesions", {"Lesion in", "Throat at, mm", "Length, mm", "Minimum lumen, mm", "Diameter stenosis, %", "Area stenosis, %", "Flow, mL/min",
                              "Drop, mmHg", "FFR", "read at, mm", "Gauge ratio"}, rows);
 }
 
@@ -190,8 +190,9 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
 std::string tables_section(const Results& results) {
     std::string tables;
     if (!results.flows.empty()) tables += lesion_table(results) + split_table(results) + branch_table(results);
-    tables += stent_table(results);
+    tables += "<div class=\"small-tables\">\n" + stent_table(results);
     if (!results.flows.empty()) tables += paper_table(results) + outlet_table(results) + run_numbers(results);
+    tables += "</div>\n";
     return "<section id=\"tables\">\n<h2>Numbers</h2>\n" + tables + "</section>\n";
 }
 
