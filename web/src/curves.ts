@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The curves' part of the page: which outlet, which quantity, and the chart.
-import { Chart, valuesAt, type ChartContent } from "./chart";
+import { Chart, valuesAt, type Band, type ChartContent } from "./chart";
 import { chooser, fill, make } from "./dom";
 import { readBytes, type Lesion, type Model, type Vec } from "./model";
 import { nearestArc, nearestTo, outletThrough, quantities, readStations, type Station } from "./pullback";
@@ -52,7 +52,10 @@ export class Curves {
     const quantity = quantities.find(({ key }) => key === this.quantity.select.value)!;
     const lines = this.model.flows.map(({ key, title }) => ({ key, title, stations: this.line(key) })).filter(({ stations }) => stations.length > 1);
     const lesion = Number(this.outlet.select.value) === this.outletOfLesion() ? this.lesion() : undefined;
-    this.content = { quantity, lines, bands: lesion ? [{ from: lesion.start_mm, to: lesion.end_mm, style: "lesion" }] : [], readAt: lesion?.read_mm };
+    const bands: Band[] = lesion ? [{ from: lesion.start_mm, to: lesion.end_mm, style: "lesion" }] : [];
+    const { stent } = this.model;
+    if (stent && lesion) bands.push({ from: stent.start_mm, to: stent.end_mm, style: "stent" });
+    this.content = { quantity, lines, bands, readAt: lesion?.read_mm };
     this.chart.show(this.content);
   }
 

@@ -52,6 +52,7 @@ export interface Model {
   files: { name: string; data: string }[];
   outlets: string[];
   worst_lesion: number | null;
+  stent: { start_mm: number; end_mm: number } | null;
   space: string;
   view: { right: Vec; up: Vec; toward: Vec };
   colours: number[];

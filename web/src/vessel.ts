@@ -65,7 +65,7 @@ export class Vessel {
   /** Fields as "piece:name". */
   fields(part: string): Choice[] {
     if (part === deployed) {
-      const names = new Set(this.bodies.flatMap((body) => [...body.frames[0]!.fields.keys()]));
+      const names = new Set(this.bodies.flatMap((body) => body.frames.flatMap((frame) => [...frame.fields.keys()])));
       return [{ value: `${deployed}:`, label: "Shape alone" }, ...[...names].map((name) => ({ value: `${deployed}:${name}`, label: styleOf(name).label }))];
     }
     const pieces = this.flows.get(part);

@@ -32,8 +32,9 @@ export class Fixture {
     const summary = read(join(out, "summary.json"));
     const { estimate, before } = summary;
     const deploy = {
-      minimum_diameter_mm: 2.93, expansion_percent: 93.4, recoil_percent: 3.1, foreshortening_percent: 1.7, malapposed_percent: 2.4,
-      penetration_over_spacing: 0.08, kinetic_to_internal: 0.012, wall: { largest_von_mises_pa: 214000.5 },
+      mode: "balloon", arc_length_mm: before.lesions[0].throat_arc_mm + 0.4, length_mm: 11.8, minimum_diameter_mm: 2.93, minimum_stent_area_mm2: 6.74,
+      expansion_index: 0.884, malapposed_percent: 2.4, largest_gap_mm: 0.113, recoil_percent: 3.1, foreshortening_percent: 1.7, dogboning_percent: 4.2,
+      penetration_over_spacing: 0.08, kinetic_to_internal: 0.012, lumen: { residual_stenosis_percent: 8.1 }, stresses: { wall_von_mises_pa: { media: { p50: 61000.3, p99: 214000.7 } } },
     };
     write(join(out, "summary.json"), { name: summary.name, estimate, before, deploy, after: read(join(out, "after", "summary.json")) });
     const timing = read(join(out, "timing.json"));

@@ -65,6 +65,8 @@ Measure measure_of(std::string_view key) {
     return ending ? ending->measure : as_ratio;
 }
 
+bool says_unit(std::string_view key) { return ending_of(key) != nullptr; }
+
 std::string words_of(std::string_view key) {
     if (const Ending* ending = ending_of(key)) key.remove_suffix(ending->end.size());
     std::string words(key);

@@ -34,6 +34,7 @@ inline constexpr Measure as_across{"", 1, 1};
 
 /// By the end of its key, as all keys of summary.json carry their unit: "recoil_percent", "minimum_diameter_mm".
 Measure measure_of(std::string_view key);
+bool says_unit(std::string_view key);
 /// The key without its unit, in words: "recoil_percent" -> "Recoil".
 std::string words_of(std::string_view key);
 

@@ -34,6 +34,7 @@ std::string head(const Results& results) {
 std::string masthead(const Results& results) {
     const bool has_before = !results.flows.empty() && results.flows.front().key == "before", has_after = !results.flows.empty() && results.flows.back().key == "after";
     const char* what = has_before && has_after ? "Blood flow before and after a stent"
+                       : results.flows.empty() ? "The deployment of a stent"
                        : results.has_deployment ? "Blood flow and the deployment of a stent"
                                                 : "Blood flow";
     return fmt::format("<header class=\"masthead\"><p class=\"brand\">patency</p><div><h1>{}</h1><p class=\"subtitle\">{}</p></div>"

@@ -96,6 +96,12 @@ Json lesion_model(const Json& lesion) {
             {"read_mm", lesion.value("read_arc_mm", throat + half)}, {"flow_m3_per_s", lesion.value("flow_m3_per_s", 0.0)}};
 }
 
+/// Where along the vessel the stent lies [mm]; null without one.
+Json stent_model(const Json& summary) {
+    const std::optional<StentSpan> span = stent_span(summary);
+    return span ? Json{{"start_mm", span->start}, {"end_mm", span->end}} : Json(nullptr);
+}
+
 Json flow_model(PageData& page, const FlowPart& flow, const Json& summary) {
     Json model{{"key", flow.key}, {"title", flow.title}, {"pieces", Json::object()}, {"lesions", Json::array()}};
     if (flow.wall) model["pieces"]["wall"] = add(page, make_piece(*flow.wall, shown_surface(*flow.wall, most_wall_triangles), wall_fields, Joints::included));
@@ -190,6 +196,7 @@ PageData make_page_data(const Results& results) {
     const FlowPart* first = results.flows.empty() ? nullptr : &results.flows.front();
     page.model["outlets"] = first ? Json(outlet_names(results.part(*first))) : Json::array();
     const std::optional<std::size_t> worst = first ? worst_lesion(results.part(*first)) : std::nullopt;
+    page.model["stent"] = stent_model(results.summary);
     page.model["worst_lesion"] = worst ? Json(*worst) : Json(nullptr);
     const PolyData* seen = first && first->wall ? &*first->wall : results.bodies.empty() ? nullptr : &results.bodies.front().frames.front();
     page.model["space"] = seen ? seen->space : "";

@@ -66,6 +66,8 @@ std::vector<DeployedBody> read_bodies(const fs::path& folder) {
         }
         if (!body.frames.empty()) bodies.push_back(std::move(body));
     }
+    // A stent that was opened without mechanics has one shape and no series.
+    if (bodies.empty() && fs::exists(folder / "stent.vtp")) bodies.push_back({"stent", {0}, {read_polydata(folder / "stent.vtp")}});
     return bodies;
 }
 
@@ -84,9 +86,20 @@ Results read_results(const fs::path& folder) {
     if (results.flows.empty() && !results.has_deployment)
         throw FileError(fmt::format("'{}' holds no flow and no deployment, so there is no page to make. Give the OUT of patency flow or patency run.",
                                     folder.string()));
-    if (results.has_deployment) results.bodies = read_bodies(folder / "deploy");
+    if (results.has_deployment) {
+        const fs::path deployment = fs::is_directory(folder / "deploy") ? folder / "deploy" : folder;   // patency deploy writes into OUT itself
+        results.bodies = read_bodies(deployment);
+        results.deployment_deck = text_or_empty(deployment / "case.resolved.yaml");
+    }
     results.name = results.summary.value("name", folder.filename().string());
     return results;
+}
+
+std::optional<StentSpan> stent_span(const Json& summary) {
+    if (!summary.contains("deploy") || !summary["deploy"].contains("arc_length_mm") || !summary["deploy"].contains("length_mm")) return {};
+    const Json &middle = summary["deploy"]["arc_length_mm"], &length = summary["deploy"]["length_mm"];
+    if (!middle.is_number() || !length.is_number()) return {};
+    return StentSpan{middle.get<double>() - 0.5 * length.get<double>(), middle.get<double>() + 0.5 * length.get<double>()};
 }
 
 std::vector<std::string> outlet_names(const Json& flow) {

@@ -45,6 +45,7 @@ struct Results {
     std::string summary_text;         ///< summary.json as it is
     std::vector<FlowPart> flows;
     bool has_deployment = false;      ///< summary.json has a part "deploy"
+    std::string deployment_deck{};
     std::vector<DeployedBody> bodies{};
 
     const nlohmann::ordered_json& part(const FlowPart& flow) const;   ///< of summary.json
@@ -52,6 +53,12 @@ struct Results {
 
 /// Throws FileError: no summary.json, a damaged file, or results that have no page (solids, verification).
 Results read_results(const std::filesystem::path& folder);
+
+/// Arcs from the inlet along the line that the stent lies on [mm].
+struct StentSpan {
+    double start, end;
+};
+std::optional<StentSpan> stent_span(const nlohmann::ordered_json& summary);
 
 /// Outlets in the order of pullback.csv's numbers (1: the first).
 std::vector<std::string> outlet_names(const nlohmann::ordered_json& flow);

@@ -54,6 +54,8 @@ std::string run_section(const Results& results) {
         for (const TextFile& file : flow.tables) files += fmt::format("<li><a class=\"needs-script\" download=\"{0}\" data-file=\"{1}\">{1}</a></li>", escaped(file.name.substr(file.name.rfind('/') + 1)), escaped(file.name));
     }
     files = fmt::format("<li><a download=\"summary.json\" href=\"data:application/json;base64,{}\">summary.json</a></li>", base64(results.summary_text)) + files;
+    if (!results.deployment_deck.empty() && results.flows.empty())
+        decks += fmt::format("<details class=\"deck\"><summary>Deck, with all defaults</summary><pre>{}</pre></details>\n", escaped(results.deployment_deck));
     if (!origin.empty()) origin = table("What this was made from (XXH64)", {"File", "Hash"}, origin);
     return "<section id=\"run\">\n<h2>This run</h2>\n<div class=\"downloads\"><h3>Files</h3><ul>" + files + "</ul></div>\n" + "<div class=\"small-tables\">" + times_table(results) + origin + "</div>\n" + decks + "</section>\n";
 }

@@ -116,6 +116,10 @@ std::string curves(const Results& results) {
     }
     const auto names = outlet_names(part);
     const std::size_t number = std::size_t(outlet) - 1;
+    if (const auto span = stent_span(results.summary)) {
+        for (PullbackPlot* plot : {&pressure, &ffr}) plot->spans.push_back({span->start, span->end, "stent"});
+        legend += " <span class=\"key stent\">stent</span>";
+    }
     return fmt::format("<div class=\"still-curves\"><h3>Along the vessel to {}</h3>\n<p class=\"legend\">{}{}</p>\n{}{}</div>\n", number < names.size() ? escaped(names[number]) : "the outlet", legend,
                        worst ? " <span class=\"key lesion\">lesion</span>" : "", draw_pullback(pressure), draw_pullback(ffr));
 }

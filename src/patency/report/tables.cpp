@@ -128,17 +128,18 @@ std::string outlet_table(const Results& results) {
 }
 
 /// Every number of the deployment, whatever the run has found worth giving.
-void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of) {
+void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of, const Measure& inherited) {
     for (const auto& [key, value] : part.items()) {
-        if (value.is_number()) rows += table_row({escaped(of + words_of(key)), f.with_unit(path + step(key), measure_of(key))});
-        if (value.is_object()) add_numbers(rows, f, value, path + step(key), of + words_of(key) + ": ");
+        const Measure measure = says_unit(key) ? measure_of(key) : inherited;   // {"stress_pa": {"p50": 1, "p99": 2}}
+        if (value.is_number()) rows += table_row({escaped(of + words_of(key)), f.with_unit(path + step(key), measure)});
+        if (value.is_object()) add_numbers(rows, f, value, path + step(key), of + words_of(key) + ": ", measure);
     }
 }
 
 std::string stent_table(const Results& results) {
     if (!results.has_deployment) return {};
     std::string rows;
-    add_numbers(rows, Figures(results.summary), results.summary["deploy"], "/deploy", "");
+    add_numbers(rows, Figures(results.summary), results.summary["deploy"], "/deploy", "", as_ratio);
     return table("Deployment", {"Quantity", "Value"}, rows);
 }
 
