@@ -20,25 +20,24 @@ TEST(PageData, PointsAndFieldsComeBackWithinHalfAStep) {
     const PolyData data = tent();
     const Piece piece = make_piece(data, shown_surface(data, 100), fields, Joints::included);
     ASSERT_EQ(piece.words.size(), 3 * 4u + 2 * 4u + 3 * 2u);
-    EXPECT_EQ(piece.about["points"], 4);
-    EXPECT_EQ(piece.about["triangles"], 2);
-    const double step = piece.about["step_mm"];
+    EXPECT_EQ(piece.points, 4u);
+    EXPECT_EQ(piece.triangles, 2u);
+    const double step = piece.step;
     EXPECT_NEAR(step, 20.0 / 65535, 1e-12);   // the longest side of the box
     for (std::size_t p = 0; p < 4; ++p) {
         const Vec3 x = 1e3 * data.points[p];
-        const double here[3] = {x.x, x.y, x.z};
-        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(double(piece.about["origin_mm"][c]) + step * piece.words[3 * p + c], here[c], 0.5001 * step);
+        const double here[3] = {x.x - piece.origin.x, x.y - piece.origin.y, x.z - piece.origin.z};
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(step * piece.words[3 * p + c], here[c], 0.5001 * step);
     }
-    ASSERT_EQ(piece.about["fields"].size(), 2u);
+    ASSERT_EQ(piece.fields.size(), 2u);
     const auto value = [&](std::size_t field, std::size_t p) {
-        const auto& about = piece.about["fields"][field];
-        const double low = about["low"], high = about["high"];
-        return low + piece.words[12 + 4 * field + p] / 65534.0 * (high - low);
+        const PieceField& about = piece.fields[field];
+        return about.low + piece.words[12 + 4 * field + p] / 65534.0 * (about.high - about.low);
     };
     for (std::size_t p = 0; p < 3; ++p) EXPECT_NEAR(value(0, p), data.arrays[0].values[p], 100.0 / 65534 * 0.51);
     EXPECT_NEAR(value(1, 0), 5, 1e-3);   // of a vector its length
     EXPECT_NEAR(value(1, 2), 3, 1e-3);
-    EXPECT_EQ(piece.about["fields"][0]["low"], 0);   // the point without a value does not count
+    EXPECT_EQ(piece.fields[0].low, 0);   // the point without a value does not count
 }
 
 TEST(PageData, WhatIsNotResolvedHasNoValue) {
@@ -52,8 +51,8 @@ TEST(PageData, AFieldOfOneValueIsThatValue) {
     PolyData data = tent();
     data.arrays[0].values = {7, 7, 7, 7};
     const Piece piece = make_piece(data, shown_surface(data, 100), fields, Joints::left_out);
-    EXPECT_EQ(piece.about["triangles"], 0);
-    EXPECT_EQ(piece.about["fields"][0]["low"], 7);
+    EXPECT_EQ(piece.triangles, 0u);
+    EXPECT_EQ(piece.fields[0].low, 7);
     EXPECT_EQ(piece.words[12], 0);
 }
 

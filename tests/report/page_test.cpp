@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "patency/base/errors.h"
 #include "patency/io/summary.h"
 #include "patency/report/curve.h"

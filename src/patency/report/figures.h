@@ -3,7 +3,7 @@
 // reader's script, can hold the page against the file.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "patency/report/figures.h"
 #include "patency/report/sections.h"
@@ -29,7 +30,7 @@ std::string note(const std::string& text) { return text.empty() ? text : "<p cla
 /// FFR on a scale from 0.5 to 1, the same in every report: bands, and a mark for every flow.
 std::string ffr_scale(const Results& results, const Pointers& pointers, const std::string& band) {
     constexpr double low = 0.5, width = 300, left = 10;
-    const Figures figures(results.summary);
+    const Figures figures(*results.summary);
     const auto x = [&](double ffr) { return left + (std::min(std::max(ffr, low), 1.0) - low) / (1 - low) * width; };
     std::string svg = "<svg class=\"ffr-scale\" viewBox=\"-4 0 328 66\" role=\"img\" aria-label=\"FFR on a scale from 0.5 to 1\">";
     for (const auto& [from, to, style] : {std::tuple{0.5, 0.75, "low"}, {0.75, 0.8, "grey"}, {0.8, 1.0, "high"}})
@@ -53,7 +54,7 @@ std::string ffr_words(double ffr, bool is_after) {
 }
 
 std::string ffr_card(const Results& results, const Focus& focus) {
-    const Figures figures(results.summary);
+    const Figures figures(*results.summary);
     const Pointers pointers = with_key(focus, "/ffr");
     const bool has_ffr = std::any_of(pointers.begin(), pointers.end(), [&](const auto& p) { return p && figures.has(*p); });
     if (!has_ffr) {
@@ -66,8 +67,8 @@ std::string ffr_card(const Results& results, const Focus& focus) {
         words += here.empty() || words.empty() ? here : "; " + here;
     }
     const Json::json_pointer place(focus.lesion);
-    if (results.summary.contains("estimate"))
-        if (const auto k = find_lesion(results.summary["estimate"], results.summary.at(place))) band = "/estimate/lesions" + step(*k) + "/ffr_band";
+    if (results.summary->contains("estimate"))
+        if (const auto k = find_lesion((*results.summary)["estimate"], results.summary->at(place))) band = "/estimate/lesions" + step(*k) + "/ffr_band";
     std::string more = ffr_scale(results, pointers, band) + note(words);
     if (!band.empty() && figures.has(band + "/0"))
         more += note(fmt::format("Estimate before: {} to {} for an uncertain flow, diameter and split.", figures.number(band + "/0", as_ratio), figures.number(band + "/1", as_ratio)));
@@ -98,7 +99,7 @@ constexpr StentFact stent_facts[] = {
 
 std::string stent_card(const Results& results) {
     if (!results.has_deployment) return {};
-    const Figures figures(results.summary);
+    const Figures figures(*results.summary);
     std::string items;
     for (const StentFact& fact : stent_facts) {
         const std::string pointer = std::string("/deploy") + fact.pointer;
@@ -111,7 +112,7 @@ std::string stent_card(const Results& results) {
 }
 
 std::string lead(const Results& results, const Focus& focus) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     if (focus.lesion.empty()) {
         if (results.flows.empty()) return "<p class=\"lead\">A stent was opened in the vessel; no flow was computed.</p>";
         const bool has_vessel = results.part(results.flows.front()).contains("lesions");
@@ -138,7 +139,7 @@ Focus focus_of(const Results& results) {
 }
 
 std::string change(const Results& results, const Pointers& pointers, const Measure& measure) {
-    const Figures figures(results.summary);
+    const Figures figures(*results.summary);
     std::string text;
     for (std::size_t k = 0; k < pointers.size(); ++k)
         text += fmt::format("{}<span class=\"{}\">{}</span>", k ? "<span class=\"arrow\"> → </span>" : "", results.flows[k].key,

@@ -14,8 +14,8 @@ namespace patency {
 namespace {
 
 /// JSON within a script element: no text in it can end the element, and it stays the same JSON.
-std::string json_block(const std::string& id, const nlohmann::ordered_json& json) {
-    std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), safe;
+std::string json_block(const std::string& id, const std::string& text) {
+    std::string safe;
     for (const char c : text) c == '<' ? safe += "\\u003c" : safe += c;
     return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, safe);
 }
@@ -59,7 +59,7 @@ std::string make_page(const Results& results, std::string_view version) {
     const PageData data = make_page_data(results);
     std::string page = head(results) + "<body>\n" + masthead(results) + "<main>\n" + glance_section(results) + std::string(live_section) + static_section(results) + quality_section(results) +
                        tables_section(results) + run_section(results) + "</main>\n" + footer(version);
-    page += json_block("summary", results.summary) + json_block("timing", results.timing) + json_block("model", data.model);
+    page += json_block("summary", results.summary_text) + json_block("model", data.model);
     for (const Blob& blob : data.blobs) page += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", blob.id, blob.base64);
     return page + "<script>" + std::string(page_script()) + "</script>\n</body>\n</html>\n";
 }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "patency/io/encode.h"
@@ -55,8 +56,8 @@ void append_positions(Piece& piece, const PolyData& data, const std::vector<std:
         const Vec3 x = scale * (data.points[p] - low);
         for (const double value : {x.x, x.y, x.z}) piece.words.push_back(std::uint16_t(std::lround(value)));
     }
-    piece.about["origin_mm"] = {1e3 * low.x, 1e3 * low.y, 1e3 * low.z};
-    piece.about["step_mm"] = 1e3 / scale;
+    piece.origin = 1e3 * low;
+    piece.step = 1e3 / scale;
 }
 
 void append_field(Piece& piece, const PolyData& data, const std::vector<std::uint32_t>& points, const FieldChoice& choice) {
@@ -73,7 +74,7 @@ void append_field(Piece& piece, const PolyData& data, const std::vector<std::uin
     if (!(low <= high)) low = high = 0;
     const double scale = high > low ? finest_value / (high - low) : 0;
     for (double v : values) piece.words.push_back(std::isnan(v) ? no_value : std::uint16_t(std::lround((v - low) * scale)));
-    piece.about["fields"].push_back({{"name", choice.name}, {"unit", array->unit}, {"low", low}, {"high", high}});
+    piece.fields.push_back({choice.name, array->unit, low, high});
 }
 
 std::string bytes_of(const std::vector<std::uint16_t>& words) {
@@ -83,8 +84,14 @@ std::string bytes_of(const std::vector<std::uint16_t>& words) {
 }
 
 Json add(PageData& page, const Piece& piece) {
-    Json about = piece.about;
-    about["data"] = fmt::format("data-{}", page.blobs.size());
+    Json about{{"data", fmt::format("data-{}", page.blobs.size())},
+               {"points", piece.points},
+               {"triangles", piece.triangles},
+               {"lines", piece.lines},
+               {"origin_mm", {piece.origin.x, piece.origin.y, piece.origin.z}},
+               {"step_mm", piece.step},
+               {"fields", Json::array()}};
+    for (const PieceField& f : piece.fields) about["fields"].push_back({{"name", f.name}, {"unit", f.unit}, {"low", f.low}, {"high", f.high}});
     page.blobs.push_back({about["data"], base64(deflated(bytes_of(piece.words)))});
     return about;
 }
@@ -167,12 +174,12 @@ Shown shown_points(const PolyData& data, std::size_t most_points) {
 }
 
 Piece make_piece(const PolyData& data, const Shown& shown, const std::vector<FieldChoice>& fields, Joints joints) {
-    Piece piece{.about = {{"points", shown.points.size()}, {"triangles", 0}, {"lines", 0}, {"fields", Json::array()}}, .words = {}};
+    Piece piece{.points = shown.points.size()};
     append_positions(piece, data, shown.points);
     for (const FieldChoice& choice : fields) append_field(piece, data, shown.points, choice);
     if (joints == Joints::left_out) return piece;
-    piece.about["triangles"] = shown.triangles.size();
-    piece.about["lines"] = shown.lines.size();
+    piece.triangles = shown.triangles.size();
+    piece.lines = shown.lines.size();
     for (const auto& triangle : shown.triangles)
         for (const std::uint32_t corner : triangle) piece.words.push_back(std::uint16_t(corner));
     for (const std::size_t length : shown.lines) piece.words.push_back(std::uint16_t(length));
@@ -181,29 +188,30 @@ Piece make_piece(const PolyData& data, const Shown& shown, const std::vector<Fie
 
 PageData make_page_data(const Results& results) {
     PageData page;
-    page.model = {{"name", results.name}, {"flows", Json::array()}, {"bodies", Json::array()}, {"files", Json::array()}};
+    Json model{{"name", results.name}, {"flows", Json::array()}, {"bodies", Json::array()}, {"files", Json::array()}};
     for (const FlowPart& flow : results.flows) {
-        Json model = flow_model(page, flow, results.part(flow));
+        Json part = flow_model(page, flow, results.part(flow));
         for (const TextFile& table : flow.tables) {
             const std::string id = fmt::format("data-{}", page.blobs.size());
             page.blobs.push_back({id, base64(deflated(table.text))});
-            page.model["files"].push_back({{"name", table.name}, {"data", id}});
+            model["files"].push_back({{"name", table.name}, {"data", id}});
         }
-        model["pullback"] = flow.pullback ? Json(flow.prefix + "pullback.csv") : Json(nullptr);
-        page.model["flows"].push_back(std::move(model));
+        part["pullback"] = flow.pullback ? Json(flow.prefix + "pullback.csv") : Json(nullptr);
+        model["flows"].push_back(std::move(part));
     }
-    for (const DeployedBody& body : results.bodies) page.model["bodies"].push_back(body_model(page, body));
+    for (const DeployedBody& body : results.bodies) model["bodies"].push_back(body_model(page, body));
     const FlowPart* first = results.flows.empty() ? nullptr : &results.flows.front();
-    page.model["outlets"] = first ? Json(outlet_names(results.part(*first))) : Json::array();
+    model["outlets"] = first ? Json(outlet_names(results.part(*first))) : Json::array();
     const std::optional<std::size_t> worst = first ? worst_lesion(results.part(*first)) : std::nullopt;
-    page.model["stent"] = stent_model(results.summary);
-    page.model["worst_lesion"] = worst ? Json(*worst) : Json(nullptr);
+    model["stent"] = stent_model(*results.summary);
+    model["worst_lesion"] = worst ? Json(*worst) : Json(nullptr);
     const PolyData* seen = first && first->wall ? &*first->wall : results.bodies.empty() ? nullptr : &results.bodies.front().frames.front();
-    page.model["space"] = seen ? seen->space : "";
+    model["space"] = seen ? seen->space : "";
     const View view = seen ? broad_view(seen->points) : View{};
     for (const auto& [name, axis] : {std::pair{"right", view.right}, {"up", view.up}, {"toward", view.toward}})
-        page.model["view"][name] = {axis.x, axis.y, axis.z};
-    page.model["colours"] = colour_table();
+        model["view"][name] = {axis.x, axis.y, axis.z};
+    model["colours"] = colour_table();
+    page.model = model.dump(-1, ' ', false, Json::error_handler_t::replace);
     return page;
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,11 +21,20 @@ struct Blob {
 /// 16 bits per number; this one says that there is no value.
 inline constexpr std::uint16_t no_value = 65535;
 
+/// A field's values are low + word / 65534 (high - low).
+struct PieceField {
+    std::string name, unit;
+    double low, high;
+};
+
 /// Points, fields, triangles and lines in `words`, one after another: 3 per point, then one per point for every field, 3 per
-/// triangle, one per line (its points, which follow each other). `about` says how many of each, and what the words mean.
+/// triangle, one per line (how many points it has; they follow each other). Points lie at origin + step * word.
 struct Piece {
-    nlohmann::ordered_json about;
-    std::vector<std::uint16_t> words;
+    std::size_t points = 0, triangles = 0, lines = 0;
+    Vec3 origin{};      ///< [mm]
+    double step = 0;    ///< [mm]
+    std::vector<PieceField> fields{};
+    std::vector<std::uint16_t> words{};
 };
 
 /// Which points of a PolyData are shown, and how they are joined; at most 65535.
@@ -48,7 +57,7 @@ enum class Joints { left_out, included };
 Piece make_piece(const PolyData& data, const Shown& shown, const std::vector<FieldChoice>& fields, Joints joints);
 
 struct PageData {
-    nlohmann::ordered_json model;
+    std::string model;   ///< JSON
     std::vector<Blob> blobs;
 };
 PageData make_page_data(const Results& results);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "patency/config/document.h"
 #include "patency/report/figures.h"
 #include "patency/report/sections.h"
@@ -116,7 +118,7 @@ Mark worse(Mark a, Mark b) { return a == Mark::look || b == Mark::look ? Mark::l
 }   // namespace
 
 std::string quality_strip(const Results& results) {
-    const Figures figures(results.summary);
+    const Figures figures(*results.summary);
     Mark mass = Mark::plain, convergence = Mark::plain, resolution = Mark::plain;
     for (const FlowPart& flow : results.flows) {
         mass = worse(mass, mark_of_mass(figures, flow.path));
@@ -132,7 +134,7 @@ std::string quality_strip(const Results& results) {
 }
 
 std::string quality_section(const Results& results) {
-    const Figures figures(results.summary);
+    const Figures figures(*results.summary);
     const Focus focus = focus_of(results);
     std::string columns;
     for (std::size_t k = 0; k < results.flows.size(); ++k) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "patency/base/errors.h"
 #include "patency/io/atomic_file.h"
@@ -67,18 +68,21 @@ std::vector<DeployedBody> read_bodies(const fs::path& folder) {
         if (!body.frames.empty()) bodies.push_back(std::move(body));
     }
     // A stent that was opened without mechanics has one shape and no series.
-    if (bodies.empty() && fs::exists(folder / "stent.vtp")) bodies.push_back({"stent", {0}, {read_polydata(folder / "stent.vtp")}});
+    if (bodies.empty())
+        for (const char* name : {"stent", "lumen_after"})
+            if (const fs::path path = folder / fmt::format("{}.vtp", name); fs::exists(path)) bodies.push_back({name, {0}, {read_polydata(path)}});
     return bodies;
 }
 
 }   // namespace
 
-const Json& Results::part(const FlowPart& flow) const { return summary.at(Json::json_pointer(flow.path)); }
+const Json& Results::part(const FlowPart& flow) const { return summary->at(Json::json_pointer(flow.path)); }
 
 Results read_results(const fs::path& folder) {
-    Results results{.root = folder, .name = {}, .summary = read_summary(folder / "summary.json"), .timing = {}, .summary_text = read_file(folder / "summary.json"), .flows = {}};
-    if (fs::exists(folder / "timing.json")) results.timing = read_summary(folder / "timing.json");
-    const auto has = [&](const char* key) { return results.summary.is_object() && results.summary.contains(key) && results.summary[key].is_object(); };
+    const auto summary = std::make_shared<const Json>(read_summary(folder / "summary.json"));
+    Results results{.root = folder, .name = {}, .summary = summary, .timing = {}, .summary_text = read_file(folder / "summary.json"), .flows = {}};
+    if (fs::exists(folder / "timing.json")) results.timing = std::make_shared<const Json>(read_summary(folder / "timing.json"));
+    const auto has = [&](const char* key) { return summary->is_object() && summary->contains(key) && summary->at(key).is_object(); };
     if (has("before")) results.flows.push_back(read_flow(folder, "before", "Before"));
     if (has("after")) results.flows.push_back(read_flow(folder, "after", "After"));
     if (results.flows.empty() && has("openings")) results.flows.push_back(read_flow(folder, "flow", "Flow"));
@@ -91,7 +95,7 @@ Results read_results(const fs::path& folder) {
         results.bodies = read_bodies(deployment);
         results.deployment_deck = text_or_empty(deployment / "case.resolved.yaml");
     }
-    results.name = results.summary.value("name", folder.filename().string());
+    results.name = summary->value("name", folder.filename().string());
     return results;
 }
 

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +42,7 @@ struct DeployedBody {
 struct Results {
     std::filesystem::path root;
     std::string name;                 ///< of the case
-    nlohmann::ordered_json summary, timing;
+    std::shared_ptr<const nlohmann::ordered_json> summary, timing;   ///< timing is null without timing.json
     std::string summary_text;         ///< summary.json as it is
     std::vector<FlowPart> flows;
     bool has_deployment = false;      ///< summary.json has a part "deploy"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "patency/io/encode.h"
 #include "patency/report/figures.h"
 #include "patency/report/sections.h"
@@ -35,9 +37,9 @@ void add_times(std::string& rows, const Figures& times, const Json& part, const 
 }
 
 std::string times_table(const Results& results) {
-    if (!results.timing.is_object()) return {};
+    if (!results.timing) return {};
     std::string rows;
-    add_times(rows, Figures(results.timing), results.timing, "", "");
+    add_times(rows, Figures(*results.timing), *results.timing, "", "");
     return rows.empty() ? "" : "<div data-source=\"timing\">" + table("Time on this machine", {"Stage", "Wall, s", "CPU, s"}, rows) + "</div>\n";
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "patency/base/units.h"
 #include "patency/report/colours.h"
@@ -116,7 +117,7 @@ std::string curves(const Results& results) {
     }
     const auto names = outlet_names(part);
     const std::size_t number = std::size_t(outlet) - 1;
-    if (const auto span = stent_span(results.summary)) {
+    if (const auto span = stent_span(*results.summary)) {
         for (PullbackPlot* plot : {&pressure, &ffr}) plot->spans.push_back({span->start, span->end, "stent"});
         legend += " <span class=\"key stent\">stent</span>";
     }

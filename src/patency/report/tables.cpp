@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "patency/report/figures.h"
@@ -33,7 +34,7 @@ const Json& first_part(const Results& results) { return results.part(results.flo
 bool is_planar(const Results& results) { return first_part(results).value("planar", false); }
 
 std::string split_table(const Results& results) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     const Measure flow = is_planar(results) ? Measure{"m²/s", 1, 6} : as_mL_per_min;
     std::string rows;
     if (!first_part(results).contains("openings")) return {};
@@ -50,7 +51,7 @@ std::string split_table(const Results& results) {
 }
 
 std::string branch_table(const Results& results) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     if (!first_part(results).contains("branches")) return {};
     std::string rows;
     for (std::size_t k = 0; k < first_part(results)["branches"].size(); ++k) {
@@ -61,7 +62,7 @@ std::string branch_table(const Results& results) {
                                     [&](const std::string& path) { return f.number(path + at + "/ffr_end", as_ratio); },
                                     [&](const std::string& path) {
                                         const Json::json_pointer place(path + at + "/is_under_resolved");
-                                        const bool is_coarse = results.summary.contains(place) && results.summary.at(place) == true;
+                                        const bool is_coarse = results.summary->contains(place) && results.summary->at(place) == true;
                                         return f.number(path + at + "/particles_across", as_across) + (is_coarse ? " <span class=\"verdict look\">few</span>" : "");
                                     }}));
     }
@@ -69,7 +70,7 @@ std::string branch_table(const Results& results) {
 }
 
 std::string lesion_table(const Results& results) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     std::string rows;
     for (const FlowPart& flow : results.flows) {
         const Json& part = results.part(flow);
@@ -90,7 +91,7 @@ std::string lesion_table(const Results& results) {
 
 /// The reference paper's table VI, row by row, its signs and units.
 std::string paper_table(const Results& results) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     const Focus focus = focus_of(results);
     if (focus.lesion.empty()) return {};
     std::string rows;
@@ -117,7 +118,7 @@ std::string paper_table(const Results& results) {
 }
 
 std::string outlet_table(const Results& results) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     std::string rows;
     const std::string path = results.flows.front().path;
     if (!first_part(results).contains("openings")) return {};
@@ -139,12 +140,12 @@ void add_numbers(std::string& rows, const Figures& f, const Json& part, const st
 std::string stent_table(const Results& results) {
     if (!results.has_deployment) return {};
     std::string rows;
-    add_numbers(rows, Figures(results.summary), results.summary["deploy"], "/deploy", "", as_ratio);
+    add_numbers(rows, Figures(*results.summary), (*results.summary)["deploy"], "/deploy", "", as_ratio);
     return table("Deployment", {"Quantity", "Value"}, rows);
 }
 
 std::string run_numbers(const Results& results) {
-    const Figures f(results.summary);
+    const Figures f(*results.summary);
     std::string rows;
     const auto add = [&](const std::string& name, const char* key, const Measure& measure) {
         std::vector<std::string> cells{name};
