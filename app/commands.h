@@ -21,6 +21,7 @@ void add_estimate_command(CLI::App& program, ExitCode& exit_code);
 void add_flow_command(CLI::App& program, ExitCode& exit_code);
 void add_solid_command(CLI::App& program, ExitCode& exit_code);
 void add_run_command(CLI::App& program, ExitCode& exit_code);
+void add_report_command(CLI::App& program, ExitCode& exit_code);
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
 

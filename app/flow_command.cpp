@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "deck_options.h"
 #include "flow_runner.h"
+#include "patency/report/page.h"
 
 namespace patency::app {
 
@@ -27,7 +28,10 @@ ExitCode run(const FlowOptions& options) {
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
-    return run_flow_stage(config, folder, log);
+    const ExitCode code = run_flow_stage(config, folder, log);
+    if (code == ExitCode::ok || code == ExitCode::bar_missed)
+        log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
+    return code;
 }
 
 }  // namespace

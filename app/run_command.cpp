@@ -12,6 +12,7 @@
 #include "flow_runner.h"
 #include "solid_runner.h"
 #include "patency/io/summary.h"
+#include "patency/report/page.h"
 #include "patency/stages/estimate_results.h"
 
 namespace patency::app {
@@ -55,6 +56,7 @@ ExitCode run(const RunOptions& options) {
     summary["before"] = read_summary(before.file("summary.json"));
     write_summary(folder.file("summary.json"), summary);
     write_summary(folder.file("timing.json"), {{"before", read_summary(before.file("timing.json"))}});
+    log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
     return code;
 }
 

@@ -24,9 +24,15 @@ function(patency_use folder)   # a folder's own libraries
 endfunction()
 patency_use(config yaml-cpp nlohmann_json::nlohmann_json)
 patency_use(physics Eigen3::Eigen)
-patency_use(shape Eigen3::Eigen OpenVDB::openvdb)
+patency_use(shape Eigen3::Eigen OpenVDB::openvdb VTK::FiltersCore VTK::CommonCore VTK::CommonDataModel VTK::CommonExecutionModel)
 patency_use(schemes Eigen3::Eigen)
 patency_use(analysis Eigen3::Eigen)
 patency_use(io nlohmann_json::nlohmann_json spdlog::spdlog ZLIB::ZLIB hdf5::hdf5 VTK::IOXML VTK::IOLegacy VTK::CommonCore VTK::CommonDataModel VTK::CommonExecutionModel)
 patency_use(stages nlohmann_json::nlohmann_json)
+patency_use(report nlohmann_json::nlohmann_json)
 patency_use(verify nlohmann_json::nlohmann_json)
+
+# The page is embedded in the program by report/page_parts.cpp.
+add_dependencies(patency_report patency_page)
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/patency/report/page_parts.cpp PROPERTIES
+  COMPILE_DEFINITIONS PATENCY_PAGE="${PATENCY_PAGE}" OBJECT_DEPENDS "${page_parts}")

@@ -36,6 +36,17 @@ TEST(Pvd, GoesOnFromTheCheckpointAsIfNothingHadHappened) {
     EXPECT_EQ(PvdWriter::resumed(folder / "new.pvd", 1).size(), 0u);
 }
 
+TEST(Pvd, GivesBackItsFrames) {
+    const ScratchFolder folder;
+    PvdWriter series(folder / "a.pvd");
+    series.add(0, "frames/a & b.vtp");
+    series.add(0.25, "frames/c.vtp");
+    const std::vector<PvdFrame> frames = read_pvd(folder / "a.pvd");
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[0].file, "frames/a & b.vtp");
+    EXPECT_EQ(frames[1].time, 0.25);
+}
+
 TEST(Pvd, DoesNotContinueWhatIsNoCollection) {
     const ScratchFolder folder;
     for (std::string_view text :

@@ -62,6 +62,14 @@ class Run(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertIn("--no-install-recommends ninja-build libvtk9-dev\n", output)
 
+    def test_brings_node_where_there_is_none_and_a_browser_for_tests_only(self):
+        absent = "nodejs npm chromium"
+        self.assertIn("--no-install-recommends nodejs npm\n", self.run_it("build", missing=absent)[1])
+        self.assertIn("--no-install-recommends nodejs npm chromium\n", self.run_it("test", missing=absent)[1])
+        for name in ("node", "npm", "chromium"):   # whoever brought them
+            self.add_program(f"bin/{name}", "exit 0")
+        self.assertNotIn("apt-get", self.run_it("test", missing=absent)[1])
+
     def test_uses_sudo_when_not_root_and_says_what_to_do_without(self):
         self.add_program("bin/id", "echo 1000")
         code, output = self.run_it("build", missing="cmake")

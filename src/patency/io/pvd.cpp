@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <utility>
@@ -53,20 +54,12 @@ std::optional<std::string> attribute(std::string_view line, std::string_view nam
 
 }   // namespace
 
-PvdWriter::PvdWriter(const std::filesystem::path& path) : PvdWriter(path, std::vector<Frame>{}) {}
-
-PvdWriter::PvdWriter(const std::filesystem::path& path, std::vector<Frame> frames)
-    : path_(path), frames_(std::move(frames)) {
-    write();
-}
-
-PvdWriter PvdWriter::resumed(const std::filesystem::path& path, double last_time) {
-    if (!std::filesystem::exists(path)) return PvdWriter(path);
+std::vector<PvdFrame> read_pvd(const std::filesystem::path& path) {
     const std::string contents = read_file(path);
     const FileError wrong(fmt::format(
-        "cannot continue '{}': it is not a collection of frames of this program. Move it away.", path.string()));
+        "cannot read '{}': it is not a collection of frames of this program. Move it away.", path.string()));
     if (contents.find("<Collection>") == contents.npos || contents.find("</Collection>") == contents.npos) throw wrong;
-    std::vector<Frame> frames;
+    std::vector<PvdFrame> frames;
     for (std::size_t at = contents.find("<DataSet"); at != contents.npos; at = contents.find("<DataSet", at + 1)) {
         const std::string_view element = std::string_view(contents).substr(at, contents.find('>', at) - at);
         const auto time_text = attribute(element, "timestep"), file = attribute(element, "file");
@@ -76,9 +69,23 @@ PvdWriter PvdWriter::resumed(const std::filesystem::path& path, double last_time
         if (const auto result = std::from_chars(time_text->data(), end, time);
             result.ec != std::errc{} || result.ptr != end)
             throw wrong;
-        if (time > last_time) break;
         frames.push_back({time, *file});
     }
+    return frames;
+}
+
+PvdWriter::PvdWriter(const std::filesystem::path& path) : PvdWriter(path, std::vector<PvdFrame>{}) {}
+
+PvdWriter::PvdWriter(const std::filesystem::path& path, std::vector<PvdFrame> frames)
+    : path_(path), frames_(std::move(frames)) {
+    write();
+}
+
+PvdWriter PvdWriter::resumed(const std::filesystem::path& path, double last_time) {
+    if (!std::filesystem::exists(path)) return PvdWriter(path);
+    std::vector<PvdFrame> frames = read_pvd(path);
+    const auto is_late = [&](const PvdFrame& frame) { return frame.time > last_time; };
+    frames.erase(std::find_if(frames.begin(), frames.end(), is_late), frames.end());
     return PvdWriter(path, std::move(frames));
 }
 
@@ -91,7 +98,7 @@ void PvdWriter::write() const {
     std::string text =
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
-    for (const Frame& frame : frames_)
+    for (const PvdFrame& frame : frames_)
         text += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, escaped(frame.file));
     text += "</Collection>\n</VTKFile>\n";
     write_file(path_, text);

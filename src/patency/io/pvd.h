@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The time series of one body: a ParaView collection (.pvd) that lists frames with their times. Does
-// not write the frames.
+// not write or read the frames.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,13 @@
 #include <vector>
 
 namespace patency {
+
+struct PvdFrame {
+    double time;        ///< [s]
+    std::string file;   ///< relative to the collection's folder
+};
+/// The frames of a collection, in its order. Throws FileError for a file that cannot be read or is none.
+std::vector<PvdFrame> read_pvd(const std::filesystem::path& path);
 
 class PvdWriter {
 public:
@@ -25,15 +32,11 @@ public:
     std::size_t size() const { return frames_.size(); }   ///< frames so far: the number of the next one
 
 private:
-    struct Frame {
-        double time;
-        std::string file;
-    };
-    PvdWriter(const std::filesystem::path& path, std::vector<Frame> frames);
+    PvdWriter(const std::filesystem::path& path, std::vector<PvdFrame> frames);
     void write() const;
 
     std::filesystem::path path_;
-    std::vector<Frame> frames_;
+    std::vector<PvdFrame> frames_;
 };
 
 /// "frames/fluid_000012.vtp"

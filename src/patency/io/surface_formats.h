@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formats of surface files, one function each: bytes in, a surface in the file's own unit out. Indices and numbers
-// are as found; surface_file.cpp checks them. For surface_file.cpp and network_file.cpp only.
+// are as found; surface_file.cpp checks them. For surface_file.cpp, network_file.cpp
+// and polydata_file.cpp only.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "patency/io/vtp.h"
 #include "patency/shape/surface.h"
 
 namespace patency {
@@ -34,6 +36,9 @@ struct CentrelineData {
 };
 /// The lines of a VTP or legacy file and their point array of radii.
 CentrelineData parse_vtk_lines(const SurfaceBytes& file);
+
+/// Everything of a VTP file that PolyData has a place for; lengths and names as in the file. Cell arrays are left out.
+PolyData parse_vtp_polydata(const SurfaceBytes& file);
 
 bool is_stl_text(std::string_view bytes);     ///< begins with "solid" and is text
 bool is_stl_binary(std::string_view bytes);   ///< has just the length that its number of triangles needs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTP and legacy VTK polydata, surfaces and centrelines, read by VTK from memory. What VTK would print goes into the error's sentence; counts that
+// VTP and legacy VTK polydata, surfaces, centrelines and results, read by VTK from memory. What VTK would print goes into the error's sentence; counts that
 // VTK believes without looking are checked before and after.
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -161,6 +161,35 @@ CentrelineData centrelines_of(const SurfaceBytes& file, vtkPolyData& data) {
     return lines;
 }
 
+std::string text_of(vtkPolyData& data, const std::string& name) {
+    auto* text = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray(name.c_str()));
+    return text && text->GetNumberOfValues() > 0 ? std::string(text->GetValue(0)) : "";
+}
+
+PolyData polydata_of(const SurfaceBytes& file, vtkPolyData& data) {
+    PolyData result{.points = points_of(data), .lines = cells_of(file, *data.GetLines()), .space = space_of(data)};
+    for (const auto& cell : cells_of(file, *data.GetPolys()))
+        for (std::size_t c = 2; c < cell.size(); ++c) result.triangles.push_back({cell[0], cell[c - 1], cell[c]});
+    const auto expect_point = [&](std::uint32_t point) {
+        if (point >= result.points.size())
+            refuse_file(file, fmt::format("a cell names a point beyond the last of {}. Export it again.", result.points.size()));
+    };
+    for (const auto& line : result.lines)
+        for (std::uint32_t point : line) expect_point(point);
+    for (const auto& triangle : result.triangles)
+        for (std::uint32_t point : triangle) expect_point(point);
+    for (int k = 0; k < data.GetPointData()->GetNumberOfArrays(); ++k) {
+        vtkDataArray* array = data.GetPointData()->GetArray(k);
+        if (!array || !array->GetName() || array->GetNumberOfTuples() != data.GetNumberOfPoints()) continue;
+        PointArray& copy = result.arrays.emplace_back(array->GetName(), text_of(data, std::string(array->GetName()) + "_unit"),
+                                                      array->GetNumberOfComponents());
+        copy.values.reserve(std::size_t(array->GetNumberOfValues()));
+        for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+            for (int c = 0; c < copy.components; ++c) copy.values.push_back(array->GetComponent(i, c));
+    }
+    return result;
+}
+
 enum class Trial { passed, crashed, too_large };
 
 /// How a child process fares with `attempt`: VTK 9.1 reads beyond its arrays in some damaged files, whatever is checked
@@ -319,6 +348,8 @@ auto read_legacy_vtk(const SurfaceBytes& file, Convert convert) {
 }   // namespace
 
 Surface parse_vtp(const SurfaceBytes& file) { return read_vtp(file, surface_of); }
+
+PolyData parse_vtp_polydata(const SurfaceBytes& file) { return read_vtp(file, polydata_of); }
 
 Surface parse_legacy_vtk(const SurfaceBytes& file) { return read_legacy_vtk(file, surface_of); }
 

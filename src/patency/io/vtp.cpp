@@ -43,6 +43,7 @@ constexpr std::pair<std::string_view, std::string_view> peer_names[] = {
     {"rrt", "RRT"},
     {"ecap", "ECAP"},
     {"von_mises_stress", "VonMises_stress"},
+    {"ffr", "FFR"},
 };
 
 /// Rows of doubles in memory, or a selection of them.

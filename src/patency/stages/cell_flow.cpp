@@ -17,6 +17,7 @@
 #include "patency/io/summary.h"
 #include "patency/io/vtp.h"
 #include "patency/stages/cell_vessel.h"
+#include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_means.h"
 #include "patency/stages/stopwatch.h"
 
@@ -165,6 +166,7 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
     write_cells(stage.folder, *scene);
     write_wall(stage.folder, *scene);
     Json summary = make_cell_summary(*scene);
+    summary["made_from"] = origin_summary(origin_of(config, stage.binary_hash));
     if (config.has_vessel()) add_vessel_results(summary, *scene, stage.folder);
     write_summary(stage.folder.file("summary.json"), summary);
     write_summary(stage.folder.file("timing.json"),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/flow_checkpoint.h"
 
+#include <nlohmann/json.hpp>
+
 #include "patency/config/deck.h"
 #include "patency/io/hash.h"
 #include "patency/stages/build.h"
@@ -49,6 +51,14 @@ CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_h
     for (const auto& [name, opening] : config.openings)
         if (opening.waveform && opening.waveform->file) add(*opening.waveform->file);
     return origin;
+}
+
+nlohmann::ordered_json origin_summary(const CheckpointOrigin& origin) {
+    nlohmann::ordered_json summary{{"inputs", nlohmann::ordered_json::object()}};
+    for (const auto& [name, hash] : origin.input_hashes) summary["inputs"][name] = hash;
+    summary["deck"] = origin.deck_hash;
+    summary["program"] = origin.binary_hash;
+    return summary;
 }
 
 void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin, const Scene& scene,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "patency/io/checkpoint.h"
@@ -15,6 +16,8 @@ namespace patency {
 
 /// What a flow is made from: the deck (threads apart, which change no bit), the files it names, the program.
 CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_hash);
+/// The same for summary.json.
+nlohmann::ordered_json origin_summary(const CheckpointOrigin& origin);
 
 /// Throws FileError; DivergedError if a value is not finite: the last good checkpoint stays.
 void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin, const Scene& scene,

@@ -126,6 +126,7 @@ private:
     void write_results() {
         const FlowMark from = window_->begin().value(), to = mark_flow(*scene_);
         nlohmann::ordered_json summary = make_summary(*scene_, from);
+        summary["made_from"] = origin_summary(origin_);
         if (window_->is_watched())
             summary["convergence"] = {{"is_converged", window_->is_settled()},
                                       {"change_percent", window_->change_percent()},

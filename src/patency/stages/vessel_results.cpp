@@ -61,10 +61,13 @@ std::optional<LesionFlow> evaluate_lesion(const Scene& scene, const VesselRecord
     const auto stations = stations_along(along, recorder, flow, lesion.line);
     if (stations.size() < 2) return {};
     LesionFlow result{.number = number, .flow = at_arc(stations, recorder, lesion.throat_arc, [](const StationFlow& s) { return s.flow.flow; }),
-                      .drop = 0, .read_arc = 0, .across = lesion.minimum_diameter / spacing_at(scene, point_at(along.lines.lines[lesion.line], lesion.throat_arc).place), .gauge_ratio = {}, .ffr = {}};
+                      .drop = 0, .read_arc = 0, .across = lesion.minimum_diameter / spacing_at(scene, point_at(along.lines.lines[lesion.line], lesion.throat_arc).place), .velocity_before = 0, .velocity_behind = 0, .gauge_ratio = {}, .ffr = {}};
     result.read_arc = std::min(lesion.end_arc + distance_to_reading, recorder.stations()[stations.back()->station].arc);
     const double read = pressure_at(stations, recorder, result.read_arc);
     result.drop = pressure_at(stations, recorder, lesion.start_arc) - read;
+    const auto velocity = [](const StationFlow& s) { return s.flow.mean_velocity; };
+    result.velocity_before = at_arc(stations, recorder, lesion.throat_arc - lesion.length(), velocity);
+    result.velocity_behind = at_arc(stations, recorder, lesion.throat_arc + lesion.length(), velocity);
     const double before = pressure_at(stations, recorder, lesion.throat_arc - lesion.length()) - lowest_outlet;
     const double behind = pressure_at(stations, recorder, lesion.throat_arc + lesion.length()) - lowest_outlet;
     if (before > 0) result.gauge_ratio = behind / before;
@@ -94,6 +97,8 @@ Json lesion_summary(const Scene& scene, const LesionFlow& l) {
             {"area_stenosis_percent", 100 * lesion.area_stenosis},
             {"minimum_diameter_mm", mm * lesion.minimum_diameter},
             {"flow_m3_per_s", l.flow},
+            {"velocity_before_m_per_s", l.velocity_before},
+            {"velocity_behind_m_per_s", l.velocity_behind},
             {"drop_pa", l.drop},
             {"read_arc_mm", mm * l.read_arc},
             {"gauge_pressure_ratio", or_null(l.gauge_ratio)},
@@ -152,7 +157,7 @@ CsvWriter table(const OutputFolder& folder, const char* name, const char* second
     return {folder.file(name), columns};
 }
 
-void write_wall(const OutputFolder& folder, const VesselRecorder& recorder) {
+void write_wall(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder, double level) {
     const Surface& surface = recorder.wall().surface;
     PolyData data{.points = surface.points, .triangles = surface.triangles, .space = surface.space};
     PointArray pressure{"pressure", "Pa"}, shear{"wall_shear_stress", "Pa", 3}, tawss{"tawss", "Pa"}, osi{"osi", "1"}, rrt{"rrt", "1/Pa"};
@@ -172,6 +177,11 @@ void write_wall(const OutputFolder& folder, const VesselRecorder& recorder) {
         rrt.values.push_back(is_seen ? rrt_values[k] : 0);
     }
     data.arrays = {pressure, shear, tawss, osi, rrt, seen};
+    if (const auto& aortic = scene.config.aorta.pressure) {
+        PointArray ffr{"ffr", "1"};
+        for (std::size_t k = 0; k < mean.size(); ++k) ffr.values.push_back(seen.values[k] != 0 ? (pressure.values[k] + level) / *aortic : 0);
+        data.arrays.push_back(ffr);
+    }
     write_polydata(folder.file("wall.vtp"), data);
 }
 
@@ -257,6 +267,10 @@ void add_vessel_summary(Json& summary, const Scene& scene, const VesselRecorder&
     summary["gauge_pressure_ratio"] = flow.lesions.empty() ? Json(nullptr) : or_null(flow.lesions.front().gauge_ratio);
     summary["ffr"] = {{"lesion", or_null(flow.worst_ffr)}};
     if (!flow.worst_ffr) summary["ffr"]["reason"] = scene.config.aorta.pressure ? "no lesion was found" : "the deck gives no aortic pressure";
+    if (scene.config.aorta.pressure) {
+        summary["aortic_pressure_pa"] = *scene.config.aorta.pressure;
+        summary["pressure_level_pa"] = flow.level;   // what FFR adds to pressures
+    }
     summary["branches"] = branches;
     summary["lesions"] = lesions;
     summary["instants_averaged"] = recorder.instants();
@@ -272,7 +286,7 @@ void write_vessel_files(const OutputFolder& folder, const Scene& scene, const Ve
     for (std::size_t line = 0; line < along.lines.lines.size(); ++line)
         for (const StationFlow* s : stations_along(along, recorder, flow, line))
             pullback.write_row(row_of(scene, recorder, *s, double(line + 1)));
-    write_wall(folder, recorder);
+    write_wall(folder, scene, recorder, flow.level);
     write_centreline(folder, scene, recorder, flow);
     recorder.cut().write(folder.file("cut.vtp"));
     write_streamlines(folder, scene, recorder);

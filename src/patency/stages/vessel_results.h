@@ -31,6 +31,7 @@ struct LesionFlow {
     double drop;                          ///< from its start to where FFR is read [Pa]
     double read_arc;                      ///< 15 mm behind its end along its line, or the line's last section [m]
     double across;                        ///< particles over the narrowest sphere
+    double velocity_before, velocity_behind;   ///< means over the sections a lesion's length before and behind its throat [m/s]
     std::optional<double> gauge_ratio;    ///< of pressures above the lowest outlet's, a lesion's length behind and before its throat
     std::optional<double> ffr;            ///< where it is read
 };

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/report/curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/report/figures.h"
+
+namespace patency {
+
+namespace {
+
+constexpr double width = 760, height = 260, left = 64, right = 14, top = 14, bottom = 42;   // pixels
+
+struct Axis {
+    double low = INFINITY, high = -INFINITY, begin, end;   ///< begin and end on the page
+    void include(double v) { low = std::min(low, v), high = std::max(high, v); }
+    void widen(double share) {
+        const double margin = std::max(share * (high - low), 1e-9);
+        low -= margin, high += margin;
+    }
+    double at(double v) const { return begin + (v - low) / (high - low) * (end - begin); }
+    bool has(double v) const { return v >= low && v <= high; }
+    /// 1, 2 or 5 times a power of ten, so that about five marks fit.
+    double step() const {
+        const double raw = (high - low) / 5, power = std::pow(10, std::floor(std::log10(raw)));
+        for (const double factor : {1.0, 2.0, 5.0})
+            if (factor * power >= raw) return factor * power;
+        return 10 * power;
+    }
+};
+
+std::string marks(const Axis& x, const Axis& y) {
+    std::string svg;
+    const auto label = [](double v, double step) { return fmt::format("{:.{}f}", v, std::max(0, int(-std::floor(std::log10(step) + 1e-9)))); };
+    for (double v = std::ceil(x.low / x.step()) * x.step(); v <= x.high + 1e-9; v += x.step())
+        svg += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1} V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>\n", x.at(v), top,
+                           height - bottom, height - bottom + 16, label(v, x.step()));
+    for (double v = std::ceil(y.low / y.step()) * y.step(); v <= y.high + 1e-12; v += y.step())
+        svg += fmt::format("<path class=\"grid\" d=\"M{1} {0:.1f} H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n", y.at(v), left,
+                           width - right, left - 7, y.at(v) + 4, label(std::abs(v) < 1e-9 * y.step() ? 0 : v, y.step()));
+    return svg;
+}
+
+std::string line(const PullbackCurve& curve, const Axis& x, const Axis& y) {
+    std::string path;
+    for (std::size_t k = 0; k < curve.x.size(); ++k) path += fmt::format("{}{:.1f} {:.1f}", k ? " L" : "M", x.at(curve.x[k]), y.at(curve.y[k]));
+    return fmt::format("<path class=\"curve {}\" d=\"{}\"/>\n", curve.style, path);
+}
+
+}   // namespace
+
+std::string draw_pullback(const PullbackPlot& plot) {
+    Axis x{.begin = left, .end = width - right}, y{.begin = height - bottom, .end = top};
+    for (const PullbackCurve& curve : plot.curves)
+        for (std::size_t k = 0; k < curve.x.size(); ++k) x.include(curve.x[k]), y.include(curve.y[k]);
+    if (!(x.high > x.low)) return {};
+    if (plot.least) y.include(*plot.least);
+    y.widen(0.06);
+    std::string svg = fmt::format("<svg class=\"pullback\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} along the vessel\">\n", width, height, escaped(plot.y_label));
+    for (const Span& span : plot.spans)
+        if (span.to > x.low && span.from < x.high) {
+            const double from = x.at(std::max(span.from, x.low)), to = x.at(std::min(span.to, x.high));
+            svg += fmt::format("<rect class=\"span {}\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>\n", span.style, from, top, to - from, height - top - bottom);
+        }
+    svg += marks(x, y);
+    for (const double level : plot.levels)
+        if (y.has(level)) svg += fmt::format("<path class=\"level\" d=\"M{} {:.1f} H{}\"/>\n", left, y.at(level), width - right);
+    for (const PullbackCurve& curve : plot.curves)
+        if (curve.x.size() > 1) svg += line(curve, x, y);
+    svg += fmt::format("<text x=\"{:.0f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + width - right), height - 6, escaped(plot.x_label));
+    svg += fmt::format("<text transform=\"translate(15 {:.0f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", 0.5 * (top + height - bottom), escaped(plot.y_label));
+    return svg + "</svg>\n";
+}
+
+}   // namespace patency

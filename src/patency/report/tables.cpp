@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "patency/report/figures.h"
+#include "patency/report/sections.h"
+
+namespace patency {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A heading over each flow's columns, when there are several.
+std::vector<std::string> with_flows(const Results& results, std::vector<std::string> head, const std::vector<std::string>& columns) {
+    for (const FlowPart& flow : results.flows)
+        for (const std::string& column : columns)
+            head.push_back(results.flows.size() > 1 ? fmt::format("{}<br><span class=\"{}\">{}</span>", column, flow.key, flow.title) : column);
+    return head;
+}
+
+/// A row whose cells are the same numbers of every flow.
+std::vector<std::string> cells_of(const Results& results, std::vector<std::string> cells, const std::vector<std::function<std::string(const std::string& path)>>& columns) {
+    for (const FlowPart& flow : results.flows)
+        for (const auto& column : columns) cells.push_back(column(flow.path));
+    return cells;
+}
+
+const Json& first_part(const Results& results) { return results.part(results.flows.front()); }
+bool is_planar(const Results& results) { return first_part(results).value("planar", false); }
+
+std::string split_table(const Results& results) {
+    const Figures f(*results.summary);
+    const Measure flow = is_planar(results) ? Measure{"m²/s", 1, 6} : as_mL_per_min;
+    std::string rows;
+    if (!first_part(results).contains("openings")) return {};
+    for (const auto& [name, opening] : first_part(results)["openings"].items()) {
+        const std::string at = "/openings" + step(name);
+        rows += table_row(cells_of(results, {escaped(name)},
+                                   {[&](const std::string& path) { return f.number(path + at + "/flow_m3_per_s", flow); },
+                                    [&](const std::string& path) { return f.ratio(path + at + "/flow_m3_per_s", path + "/openings/inlet/flow_m3_per_s", {"%", name == "inlet" ? 100.0 : -100.0, 1}); },
+                                    [&](const std::string& path) { return f.number(path + at + "/mean_pressure_pa", as_mmHg); },
+                                    [&](const std::string& path) { return f.number(path + at + "/mean_velocity_m_per_s", as_m_per_s); }}));
+    }
+    return table("Openings (out is positive)",
+                 with_flows(results, {"Opening"}, {fmt::format("Flow, {}", flow.unit), "Share, %", "Pressure, mmHg", "Velocity, m/s"}), rows);
+}
+
+std::string branch_table(const Results& results) {
+    const Figures f(*results.summary);
+    if (!first_part(results).contains("branches")) return {};
+    std::string rows;
+    for (std::size_t k = 0; k < first_part(results)["branches"].size(); ++k) {
+        const std::string at = "/branches" + step(k), first = results.flows.front().path + at;
+        rows += table_row(cells_of(results, {f.text(first + "/name"), f.number(first + "/length_mm", as_mm)},
+                                   {[&](const std::string& path) { return f.number(path + at + "/flow_m3_per_s", as_mL_per_min); },
+                                    [&](const std::string& path) { return f.number(path + at + "/pressure_end_pa", as_mmHg); },
+                                    [&](const std::string& path) { return f.number(path + at + "/ffr_end", as_ratio); },
+                                    [&](const std::string& path) {
+                                        const Json::json_pointer place(path + at + "/is_under_resolved");
+                                        const bool is_coarse = results.summary->contains(place) && results.summary->at(place) == true;
+                                        return f.number(path + at + "/particles_across", as_across) + (is_coarse ? " <span class=\"verdict look\">few</span>" : "");
+                                    }}));
+    }
+    return table("Branches", with_flows(results, {"Branch", "Length, mm"}, {"Flow, mL/min", "Pressure at its end, mmHg", "FFR at its end", "Particles across"}), rows);
+}
+
+std::string lesion_table(const Results& results) {
+    const Figures f(*results.summary);
+    std::string rows;
+    for (const FlowPart& flow : results.flows) {
+        const Json& part = results.part(flow);
+        if (!part.contains("lesions")) continue;
+        for (std::size_t k = 0; k < part["lesions"].size(); ++k) {
+            const std::string at = flow.path + "/lesions" + step(k);
+            const std::string when = results.flows.size() > 1 ? fmt::format("<span class=\"{}\">{}</span> ", flow.key, flow.title) : "";
+            rows += table_row({when + f.text(at + "/branch"), f.number(at + "/throat_arc_mm", as_mm), f.number(at + "/length_mm", as_mm), f.number(at + "/minimum_diameter_mm", as_mm),
+                               f.number(at + "/diameter_stenosis_percent", as_percent), f.number(at + "/area_stenosis_percent", as_percent),
+                               f.number(at + "/flow_m3_per_s", as_mL_per_min), f.number(at + "/drop_pa", as_mmHg), f.number(at + "/ffr", as_ratio),
+                               f.number(at + "/read_arc_mm", as_mm), f.number(at + "/gauge_pressure_ratio", as_ratio)});
+        }
+    }
+    if (rows.empty()) return {};
+    return table("Lesions", {"Lesion in", "Throat at, mm", "Length, mm", "Minimum lumen, mm", "Diameter stenosis, %", "Area stenosis, %", "Flow, mL/min",
+                             "Drop, mmHg", "FFR", "read at, mm", "Gauge ratio"}, rows);
+}
+
+/// The reference paper's table VI, row by row, its signs and units.
+std::string paper_table(const Results& results) {
+    const Figures f(*results.summary);
+    const Focus focus = focus_of(results);
+    if (focus.lesion.empty()) return {};
+    std::string rows;
+    const auto add = [&](const std::string& name, const std::function<std::string(std::size_t)>& cell) {
+        std::vector<std::string> cells{name};
+        for (std::size_t k = 0; k < results.flows.size(); ++k) cells.push_back(cell(k));
+        rows += table_row(cells);
+    };
+    const auto opening_at = [&](std::size_t k, const std::string& name, const char* key) { return results.flows[k].path + "/openings" + step(name) + key; };
+    const auto lesion_at = [&](std::size_t k, const char* key) { return focus.in_flow[k].value_or("/none") + key; };
+    std::vector<std::string> names{"inlet"};
+    for (const std::string& outlet : outlet_names(first_part(results))) names.push_back(outlet);
+    for (const std::string& name : names)
+        add("Velocity at " + escaped(name) + ", m/s", [&](std::size_t k) { return f.number(opening_at(k, name, "/mean_velocity_m_per_s"), {"", name == "inlet" ? -1.0 : 1.0, 3}); });
+    add("Velocity before the stenosis, m/s", [&](std::size_t k) { return f.number(lesion_at(k, "/velocity_before_m_per_s"), as_m_per_s); });
+    add("Velocity behind the stenosis, m/s", [&](std::size_t k) { return f.number(lesion_at(k, "/velocity_behind_m_per_s"), as_m_per_s); });
+    for (const std::string& name : names)
+        add("Flow at " + escaped(name) + ", m³/s (in is positive)", [&](std::size_t k) { return f.scientific(opening_at(k, name, "/flow_m3_per_s"), 2, -1); });
+    add("Flow through the stenosis, m³/s", [&](std::size_t k) { return f.scientific(lesion_at(k, "/flow_m3_per_s")); });
+    add("Gauge pressure ratio (called FFR there)", [&](std::size_t k) { return f.number(lesion_at(k, "/gauge_pressure_ratio"), as_ratio); });
+    std::vector<std::string> head{"Quantity"};
+    for (const FlowPart& flow : results.flows) head.push_back(flow.title);
+    return table("In the form of the reference paper's table VI", head, rows);
+}
+
+std::string outlet_table(const Results& results) {
+    const Figures f(*results.summary);
+    std::string rows;
+    const std::string path = results.flows.front().path;
+    if (!first_part(results).contains("openings")) return {};
+    for (const auto& [name, opening] : first_part(results)["openings"].items())
+        rows += table_row({escaped(name), f.number(path + "/openings" + step(name) + "/area_m2", {"mm²", 1e6, 2}), f.scientific(path + "/openings" + step(name) + "/resistance_pa_s_per_m3", 3),
+                           f.number(path + "/openings" + step(name) + "/distal_pressure_pa", as_mmHg)});
+    return table("What lies behind the openings", {"Opening", "Area, mm²", "Resistance, Pa s/m³", "Pressure behind it, mmHg"}, rows);
+}
+
+/// Every number of the deployment, whatever the run has found worth giving.
+void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of, const Measure& inherited) {
+    for (const auto& [key, value] : part.items()) {
+        const Measure measure = says_unit(key) ? measure_of(key) : inherited;   // {"stress_pa": {"p50": 1, "p99": 2}}
+        if (value.is_number()) rows += table_row({escaped(of + words_of(key)), f.with_unit(path + step(key), measure)});
+        if (value.is_object()) add_numbers(rows, f, value, path + step(key), of + words_of(key) + ": ", measure);
+    }
+}
+
+std::string stent_table(const Results& results) {
+    if (!results.has_deployment) return {};
+    std::string rows;
+    add_numbers(rows, Figures(*results.summary), (*results.summary)["deploy"], "/deploy", "", as_ratio);
+    return table("Deployment", {"Quantity", "Value"}, rows);
+}
+
+std::string run_numbers(const Results& results) {
+    const Figures f(*results.summary);
+    std::string rows;
+    const auto add = [&](const std::string& name, const char* key, const Measure& measure) {
+        std::vector<std::string> cells{name};
+        bool is_there = false;
+        for (const FlowPart& flow : results.flows) {
+            cells.push_back(f.with_unit(flow.path + key, measure));
+            is_there = is_there || f.has(flow.path + key);
+        }
+        if (is_there) rows += table_row(cells);
+    };
+    add("Particles of blood", "/particles/fluid", as_count);
+    add("Particles of wall", "/particles/wall", as_count);
+    add("Across the narrowest place", "/particles/across_narrowest", as_across);
+    add("Finest spacing", "/spacing_m", {"mm", 1e3, 3});
+    add("Coarsest spacing", "/largest_spacing_m", {"mm", 1e3, 3});
+    add("Largest speed", "/largest_speed_m_per_s", as_m_per_s);
+    add("Mean speed", "/mean_speed_m_per_s", as_m_per_s);
+    add("Mass imbalance", "/mass_imbalance_percent", {"%", 1, 4});
+    add("Acoustic steps", "/acoustic_steps", as_count);
+    add("Iterations", "/iterations", as_count);
+    add("Simulated time", "/time_s", {"s", 1, 3});
+    add("Means from", "/averaged_from_s", {"s", 1, 3});
+    add("Aortic pressure", "/aortic_pressure_pa", as_mmHg);
+    add("Added to pressures for FFR", "/pressure_level_pa", as_mmHg);
+    std::vector<std::string> head{"Quantity"};
+    for (const FlowPart& flow : results.flows) head.push_back(flow.title);
+    return table("Computation", head, rows);
+}
+
+}   // namespace
+
+std::string table_row(const std::vector<std::string>& cells) {
+    std::string row = "<tr>";
+    for (std::size_t k = 0; k < cells.size(); ++k) row += fmt::format("<{0}>{1}</{2}>", k == 0 ? "th scope=\"row\"" : "td", cells[k], k == 0 ? "th" : "td");
+    return row + "</tr>\n";
+}
+
+std::string table(const std::string& caption, const std::vector<std::string>& head, const std::string& rows) {
+    std::string cells;
+    for (const std::string& text : head) cells += "<th scope=\"col\">" + text + "</th>";
+    return fmt::format("<div class=\"table\" tabindex=\"0\"><table><caption>{}</caption><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", caption, cells, rows);
+}
+
+std::string tables_section(const Results& results) {
+    std::string tables;
+    if (!results.flows.empty()) tables += lesion_table(results) + split_table(results) + branch_table(results);
+    tables += "<div class=\"small-tables\">\n" + stent_table(results);
+    if (!results.flows.empty()) tables += paper_table(results) + outlet_table(results) + run_numbers(results);
+    tables += "</div>\n";
+    return "<section id=\"tables\">\n<h2>Numbers</h2>\n" + tables + "</section>\n";
+}
+
+}   // namespace patency

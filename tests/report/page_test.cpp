@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pages of small results that the test writes itself. How a browser takes them is web/test/page.test.mjs's.
+#include "patency/report/page.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "patency/base/errors.h"
+#include "patency/io/summary.h"
+#include "patency/report/curve.h"
+#include "patency/report/page_data.h"
+#include "patency/report/page_parts.h"
+#include "tests/io/scratch_folder.h"
+#include "tests/shape/surfaces.h"
+
+namespace patency {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json flow_summary() {
+    return Json::parse(R"({"name": "tube", "scheme": "sph", "openings": {"inlet": {"flow_m3_per_s": -1e-6, "mean_pressure_pa": 100}, "outlet": {"flow_m3_per_s": 1e-6, "mean_pressure_pa": 0}},
+                           "mass_imbalance_percent": 0.01, "particles": {"fluid": 1000, "across_narrowest": 12.5}, "ffr": {"lesion": null, "reason": "the deck gives no aortic pressure"}})");
+}
+
+void write_wall(const std::filesystem::path& path, std::uint32_t around) {
+    const Surface torus = make_torus_mesh(1e-2, 2e-3, around, around / 2);
+    PolyData data{.points = torus.points, .lines = {}, .triangles = torus.triangles};
+    data.arrays = {{"pressure", "Pa", 1, std::vector<double>(torus.points.size(), 3.0)}};
+    write_polydata(path, data);
+}
+
+TEST(Page, FetchesNothing) {
+    const ScratchFolder folder;
+    write_summary(folder / "summary.json", flow_summary());
+    const std::string page = contents_of(write_report(folder.path(), "1.2.3"));
+    EXPECT_TRUE(has(page, "default-src 'none'; script-src 'sha256-"));
+    EXPECT_TRUE(has(page, "'; style-src 'sha256-"));
+    const std::string own = page.substr(0, page.find("<style>")) + page.substr(page.find("</style>"), page.rfind("<script>") - page.find("</style>"));
+    EXPECT_EQ(own.find("http"), own.find("http-equiv"));   // no address anywhere but for the policy's own name
+    EXPECT_EQ(own.find("http", own.find("http-equiv") + 1), own.npos);
+    EXPECT_TRUE(has(page, "patency 1.2.3"));
+    EXPECT_FALSE(page_script().empty());
+    EXPECT_EQ(page_script().find("</script"), std::string_view::npos);
+}
+
+/// Whatever is in it, a run of three parts stays below 5 MB: before, after, and twenty frames of two bodies.
+TEST(Page, StaysSmallForLargeResults) {
+    const ScratchFolder folder;
+    for (const char* part : {"before", "after", "deploy", "deploy/frames"}) std::filesystem::create_directory(folder / part);
+    for (const char* part : {"before", "after"}) write_wall(folder / part / "wall.vtp", 500);
+    for (const char* body : {"stent", "wall"}) {
+        write_wall(folder / "deploy/frames" / body, 200);
+        std::string list;
+        for (int k = 0; k < 60; ++k) list += "<DataSet timestep=\"" + std::to_string(k) + "\" part=\"0\" file=\"frames/" + body + "\"/>\n";
+        put(folder / ("deploy/" + std::string(body) + ".pvd"), "<VTKFile><Collection>\n" + list + "</Collection></VTKFile>\n");
+    }
+    write_summary(folder / "summary.json", {{"name", "large"}, {"before", flow_summary()}, {"deploy", {{"recoil_percent", 3.5}}}, {"after", flow_summary()}});
+    const Results results = read_results(folder.path());
+    ASSERT_EQ(results.bodies.size(), 2u);
+    EXPECT_EQ(results.bodies[0].frames.size(), 20u);
+    EXPECT_EQ(results.bodies[0].times.back(), 59);   // the last is among them
+    EXPECT_LT(make_page(results, "1").size(), 5e6);
+}
+
+TEST(Page, TextOfTheCaseStaysText) {
+    const ScratchFolder folder;
+    Json summary = flow_summary();
+    summary["name"] = "</script><script>alert(1)</script>";
+    summary["openings"]["<img src=x>"] = summary["openings"]["outlet"];
+    write_summary(folder / "summary.json", summary);
+    put(folder / "case.resolved.yaml", "# </pre></details><script>alert(2)</script>\nwall: {motion: \"<i>\"}\n");
+    const std::string page = contents_of(write_report(folder.path(), "1"));
+    EXPECT_EQ(page.find("<script>alert"), page.npos);
+    EXPECT_EQ(page.find("<img src=x>"), page.npos);
+    EXPECT_EQ(page.find("<i>"), page.npos);
+    EXPECT_TRUE(has(page, "&lt;/script&gt;&lt;script&gt;alert(1)"));
+}
+
+TEST(Page, IsTheSameForTheSameResults) {
+    const ScratchFolder folder;
+    write_summary(folder / "summary.json", flow_summary());
+    write_wall(folder / "wall.vtp", 40);
+    const Results results = read_results(folder.path());
+    EXPECT_EQ(make_page(results, "1"), make_page(read_results(folder.path()), "1"));
+}
+
+TEST(Page, SaysWhatResultsHaveNone) {
+    const ScratchFolder folder;
+    EXPECT_THROW(read_results(folder.path()), FileError);
+    write_summary(folder / "summary.json", {{"name", "x"}, {"solids", Json::object()}});
+    EXPECT_TRUE(has(sentence_of<FileError>([&] { read_results(folder.path()); }), "no page to make"));
+    write_summary(folder / "summary.json", Json::array());
+    EXPECT_THROW(read_results(folder.path()), FileError);
+}
+
+TEST(Page, FindsTheLesionAgain) {
+    const Json lesion = {{"branch", "a"}, {"throat_arc_mm", 30.0}, {"length_mm", 8.0}};
+    Json flow = {{"lesions", {{{"branch", "b"}, {"throat_arc_mm", 30.0}}, {{"branch", "a"}, {"throat_arc_mm", 50.0}}, {{"branch", "a"}, {"throat_arc_mm", 33.0}}}}};
+    EXPECT_EQ(find_lesion(flow, lesion), 2u);
+    flow["lesions"].erase(2);
+    EXPECT_EQ(find_lesion(flow, lesion), std::nullopt);
+    EXPECT_EQ(find_lesion(Json::object(), lesion), std::nullopt);
+}
+
+TEST(Page, TheWorstLesionIsThatOfTheLowestFfrElseTheTightest) {
+    Json flow = {{"lesions", {{{"ffr", 0.9}, {"diameter_stenosis_percent", 70.0}}, {{"ffr", 0.7}, {"diameter_stenosis_percent", 50.0}}}}};
+    EXPECT_EQ(worst_lesion(flow), 1u);
+    for (Json& lesion : flow["lesions"]) lesion["ffr"] = nullptr;
+    EXPECT_EQ(worst_lesion(flow), 0u);
+    EXPECT_EQ(worst_lesion(Json::object()), std::nullopt);
+}
+
+TEST(Page, ACurveHasItsLesionAndItsLevel) {
+    const PullbackCurve curve{"before", "before", {0, 10, 20}, {1, 0.9, 0.75}};
+    const std::string svg = draw_pullback({.x_label = "mm", .y_label = "a < b", .curves = {curve}, .spans = {{5, 8, "lesion"}, {90, 95, "stent"}}, .least = {}, .levels = {0.8, 0.2}});
+    EXPECT_TRUE(has(svg, "class=\"span lesion\""));
+    EXPECT_EQ(svg.find("span stent"), svg.npos);   // beyond the curve
+    EXPECT_EQ(svg.find("class=\"level\""), svg.rfind("class=\"level\""));   // one level is within the axis
+    EXPECT_TRUE(has(svg, "a &lt; b"));
+    EXPECT_EQ(draw_pullback({.x_label = "", .y_label = "", .curves = {}, .spans = {}, .least = {}, .levels = {}}), "");
+}
+
+}   // namespace
+}   // namespace patency
