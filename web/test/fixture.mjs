@@ -20,7 +20,7 @@ export class Fixture {
   /** The bifurcation with its lesion, coarse, on cells: a real flow in seconds. */
   flow(command, name, ...settings) {
     const out = join(this.folder, name);
-    const all = ["numerics.scheme=cells", "numerics.spacing=0.4 mm", ...settings];
+    const all = ["numerics.across=null", "numerics.spacing=0.4 mm", ...settings];
     this.patency(command, join(this.cases, "coronary_bifurcation.yaml"), "-o", out, "--fresh", ...all.flatMap((setting) => ["--set", setting]));
     return out;
   }
