@@ -40,8 +40,6 @@ std::string price(const FlowPlan& p, double spacing) {
         p.memory / 1e6, readable_time(p.seconds), p.threads, p.threads == 1 ? "" : "s");
 }
 
-double rounded(double length) { return 1e-6 * std::round(1e6 * length); }
-
 /// How well something of that diameter is seen by moving particles.
 std::string verdict(double across) {
     return across < 4 ? "not resolved: numbers there mean nothing" : across < fewest_resolved ? "under-resolved" : "";
@@ -111,9 +109,9 @@ void describe_lesions(Lines& out, const Vessel& vessel, const InitPlan& plan) {
 void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     const double spacing = plan.moving_spacing;
     const CellPlan& cells = plan.cells;
-    out.add("Price: about {:.2g} cells, {} to {} apart, {:.0f} in each local diameter; {:.0f} MB, about {} on {} thread{}", cells.cells,
-            format_quantity(rounded(cells.finest), "mm"), format_quantity(rounded(cells.coarsest), "mm"), cells_across, cells.memory / 1e6,
-            readable_time(cells.seconds), cells.threads, cells.threads == 1 ? "" : "s");
+    out.add("Price: about {:.2g} cells, {:.2g} to {:.2g} mm apart, {:.0f} in each local diameter; {:.0f} MB, about {} on {} thread{}", cells.cells,
+            mm(cells.finest), mm(cells.coarsest), cells_across, cells.memory / 1e6, readable_time(cells.seconds), cells.threads,
+            cells.threads == 1 ? "" : "s");
     out.add("Moving particles instead, for a budget of {}:", readable_time(plan.budget.seconds));
     out.add("  {}", price(plan.price, spacing));
     if (!plan.is_within_budget())
