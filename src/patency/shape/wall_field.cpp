@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "patency/base/errors.h"
-#include "patency/shape/distance_shapes.h"
 #include "patency/shape/wall_thickness.h"
 
 namespace patency {
@@ -37,7 +36,7 @@ private:
         return k < shared ? to_stretch(arc) : to_stretch(parting) + arc - parting;
     }
 
-    /// A bifurcation is cut by no plane: what reaches into one has all of it and a radius more. Whether something came in.
+    /// A bifurcation is cut by no plane, nor is its crotch: what reaches into one has all of it and a diameter more. Whether something came in.
     bool take_bifurcations() {
         std::vector<char> reached;
         const auto bifurcation = [&](std::size_t j, std::size_t k) { return lines_.bifurcation_ids[j][k]; };
@@ -54,7 +53,7 @@ private:
             for (std::size_t k = 0; k < points.size(); ++k) {
                 if (!is_reached(bifurcation(j, k))) continue;
                 for (std::size_t m = 0; m < points.size(); ++m)
-                    if (!has_[j][m] && std::abs(points[m].arc - points[k].arc) <= points[k].radius) has_[j][m] = 1, is_new = true;
+                    if (!has_[j][m] && std::abs(points[m].arc - points[k].arc) <= 2 * points[k].radius) has_[j][m] = 1, is_new = true;
             }
         }
         return is_new;
@@ -70,7 +69,17 @@ struct Station {
     double radius, thickness;   // of the healthy lumen, of its wall
     bool is_inside;
     int end;                    // index of an end within two diameters along the line, or -1
+    std::vector<std::size_t> next{};   // stations beside it along the lines, to one side
 };
+
+/// To the spheres between two that are given, their radii linear between: the round cone around both.
+double distance_to_cone(const Vec3& x, const Station& a, const Station& b) {
+    const Vec3 axis = b.place - a.place, d = x - a.place;
+    const double length = norm(axis), along = dot(d, axis) / length, across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
+    const double slope = std::clamp((b.radius - a.radius) / length, -0.99, 0.99);   // sine of half the cone's angle
+    const double t = std::clamp((along + across * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
+    return std::hypot(along - t * length, across) - (1 - t) * a.radius - t * b.radius;
+}
 
 }   // namespace
 
@@ -81,46 +90,48 @@ public:
         : lumen_(std::move(lumen)) {
         if (settings.thickness && !(*settings.thickness > 0)) throw GeometryError("A wall must have a thickness.");
         const Part part(lines, settings);
-        std::vector<RoundCone> cones;
         for (std::size_t j = 0; j < lines.lines.size(); ++j) {
             const auto& points = lines.lines[j].points;
             const std::vector<int> end = find_ends(lines, part, healthy, opening_normals, j);
+            std::size_t before = none;
             for (std::size_t k = 0; k < points.size(); ++k) {
-                const double radius = 0.5 * healthy[j][k];
-                if (!part.has(j, k) && end[k] < 0) continue;   // far outside; what is nearest to an end decides there
-                const double thickness = settings.thickness.value_or(coronary_wall_thickness(2 * radius));
-                const bool is_known = std::any_of(stations_.begin(), stations_.end(), [&](const Station& s) { return s.place == points[k].place; });
-                if (!is_known) stations_.push_back({points[k].place, radius, thickness, part.has(j, k), end[k]});
-                if (k > 0 && settings.is_filled && !is_known)
-                    cones.push_back({points[k - 1].place, points[k].place, 0.5 * healthy[j][k - 1], radius});
-                if (part.has(j, k)) {
-                    thinnest_ = std::min(thinnest_, thickness);
-                    const double out = 2 * std::max(radius, points[k].radius) + thickness;   // eccentric lumens too
-                    bounds_ = is_empty_ ? Bounds{points[k].place - out * Vec3{1, 1, 1}, points[k].place + out * Vec3{1, 1, 1}}
-                                        : joined(bounds_, {points[k].place - out * Vec3{1, 1, 1}, points[k].place + out * Vec3{1, 1, 1}});
-                    is_empty_ = false;
+                if (!part.has(j, k) && end[k] < 0) {   // far outside; what is nearest to an end decides there
+                    before = none;
+                    continue;
                 }
+                const double radius = 0.5 * healthy[j][k], thickness = settings.thickness.value_or(coronary_wall_thickness(2 * radius));
+                const std::size_t at = add_station({points[k].place, radius, thickness, part.has(j, k), end[k]});
+                if (before != none && at > before) stations_[at].next.push_back(before);
+                before = at;
+                if (!part.has(j, k)) continue;
+                thinnest_ = std::min(thinnest_, thickness);
+                const Vec3 out = (2 * std::max(radius, points[k].radius) + thickness) * Vec3{1, 1, 1};   // eccentric lumens too
+                const Bounds box{points[k].place - out, points[k].place + out};
+                bounds_ = is_empty_ ? box : joined(bounds_, box);
+                is_empty_ = false;
             }
         }
         if (is_empty_) throw GeometryError("There is no vessel in the part whose wall is wanted.");
-        if (!cones.empty()) healthy_ = union_of_round_cones(std::move(cones));
+        is_filled_ = settings.is_filled;
     }
 
     WallPlace at(const Vec3& x) const {
-        // Distances to the healthy lumen's spheres; the thickness is a mean over those near the least.
         const Station* nearest = nullptr;
-        double least = Bounds::infinity;
+        double least = Bounds::infinity;   // to the healthy lumen's spheres
         for (const Station& s : stations_)
             if (const double d = norm(x - s.place) - s.radius; d < least) least = d, nearest = &s;
-        double sum = 0, weights = 0;
+        double sum = 0, weights = 0, healthy = least;
         for (const Station& s : stations_) {
-            const double over = (norm(x - s.place) - s.radius - least) / s.thickness;
-            if (over > 4) continue;
-            const double w = std::exp(-over * over);
-            sum += w * s.thickness, weights += w;
+            const double over = norm(x - s.place) - s.radius - least, share = over / s.thickness;
+            if (share < 3) {
+                const double w = std::exp(-share * share);
+                sum += w * s.thickness, weights += w;
+            }
+            if (is_filled_ && over < 0.5 * s.radius)
+                for (const std::size_t next : s.next) healthy = std::min(healthy, distance_to_cone(x, s, stations_[next]));
         }
         WallPlace place{lumen_.value(x), 0, sum / weights, 0};
-        place.healthy = healthy_ ? std::min(place.lumen, healthy_->value(x)) : place.lumen;
+        place.healthy = is_filled_ ? std::min(place.lumen, healthy) : place.lumen;
         const double far = 2 * nearest->radius;
         if (nearest->end < 0) {
             place.region = nearest->is_inside ? -far : far;
@@ -137,6 +148,15 @@ public:
     const Bounds& bounds() const { return bounds_; }
 
 private:
+    static constexpr std::size_t none = ~std::size_t(0);
+
+    /// Its index; lines share points, bit for bit.
+    std::size_t add_station(Station station) {
+        for (std::size_t k = 0; k < stations_.size(); ++k)
+            if (stations_[k].place == station.place) return k;
+        stations_.push_back(std::move(station));
+        return stations_.size() - 1;
+    }
     int add_end(const VesselEnd& end) {
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (ends_[e].centre == end.centre) return int(e);
@@ -150,11 +170,12 @@ private:
         const auto& points = lines.lines[j].points;
         const std::size_t n = points.size();
         std::vector<int> near(n, -1);
+        std::vector<double> way(n, Bounds::infinity);   // to it, along the line
         const auto add = [&](std::size_t k, const Vec3& normal, bool is_opening) {
             const double radius = 0.5 * healthy[j][k];
             const int e = add_end({points[k].place, normal, radius, is_opening});
             for (std::size_t m = 0; m < n; ++m)
-                if (std::abs(points[m].arc - points[k].arc) < 4 * radius) near[m] = e;
+                if (const double w = std::abs(points[m].arc - points[k].arc); w < std::min(way[m], 4 * radius)) near[m] = e, way[m] = w;
         };
         for (std::size_t k = 0; k + 1 < n; ++k) {
             if (part.has(j, k) && !part.has(j, k + 1)) add(k, points[k].tangent, false);
@@ -166,7 +187,7 @@ private:
     }
 
     SignedDistance lumen_;
-    std::optional<SignedDistance> healthy_;
+    bool is_filled_ = false;
     std::vector<Station> stations_;
     std::vector<VesselEnd> ends_;
     double thinnest_ = Bounds::infinity;
@@ -189,9 +210,8 @@ SignedDistance WallField::wall() const {
     const double step = 1e-3 * thinnest();
     return {[field = *this, step](const Vec3& x) {
                 DistanceSample sample{field.value(x), {}, 0};
-                Vec3 slope{};
-                const auto along = [&](const Vec3& e) { return (field.value(x + step * e) - field.value(x - step * e)) / (2 * step); };
-                slope = {along({1, 0, 0}), along({0, 1, 0}), along({0, 0, 1})};
+                const auto rise = [&](const Vec3& e) { return field.value(x + step * e) - sample.value; };
+                const Vec3 slope = {rise({1, 0, 0}), rise({0, 1, 0}), rise({0, 0, 1})};
                 sample.gradient = norm(slope) > 0 ? normalized(slope) : Vec3{1, 0, 0};
                 return sample;
             },
