@@ -27,24 +27,24 @@ std::vector<StentPoint> face(const std::function<double(double, double)>& radius
     return places;
 }
 
-TEST(StentShape, OfACylinderIsItsDiameter) {
-    const StentShape shape = measure_stent_shape(face([](double, double) { return 1.5e-3; }, 7), 8);
+TEST(StentProfile, OfACylinderIsItsDiameter) {
+    const StentProfile shape = measure_stent_profile(face([](double, double) { return 1.5e-3; }, 7), 8);
     EXPECT_NEAR(shape.length, 10e-3, 1e-15);
     for (const double d : {shape.least_diameter, shape.mean_diameter, shape.most_diameter, shape.end_diameter, shape.middle_diameter}) EXPECT_NEAR(d, 3e-3, 1e-15);
     EXPECT_NEAR(shape.least_area, pi * 2.25e-6, 1e-18);
     EXPECT_NEAR(dogboning(shape), 0, 1e-14);
 }
 
-TEST(StentShape, KnowsAnEllipseAndAWaist) {
+TEST(StentProfile, KnowsAnEllipseAndAWaist) {
     // r^2 = a^2 b^2 / (b^2 cos^2 + a^2 sin^2): area pi a b
     const double a = 1.6e-3, b = 1.2e-3;
-    const StentShape oval = measure_stent_shape(
+    const StentProfile oval = measure_stent_profile(
         face([=](double t, double) { return a * b / std::hypot(b * std::cos(t), a * std::sin(t)); }, 720), 5);
     EXPECT_NEAR(oval.least_area, pi * a * b, 1e-3 * pi * a * b);
     EXPECT_NEAR(oval.slices[2].least_diameter, 2 * b, 1e-9);
     EXPECT_NEAR(oval.slices[2].most_diameter, 2 * a, 1e-9);
     // A waist: 1 mm in the middle, 1.5 mm at the ends, linear between.
-    const StentShape waist = measure_stent_shape(face([](double, double s) { return 1e-3 + 0.1 * std::abs(s); }, 90, 2001), 101);
+    const StentProfile waist = measure_stent_profile(face([](double, double s) { return 1e-3 + 0.1 * std::abs(s); }, 90, 2001), 101);
     EXPECT_NEAR(waist.least_diameter, 2e-3, 0.02e-3);
     EXPECT_NEAR(waist.most_diameter, 3e-3, 0.02e-3);
     EXPECT_NEAR(waist.end_diameter, 2.9e-3, 0.01e-3);      // the mean over the last tenths: 1.45 mm
@@ -52,9 +52,9 @@ TEST(StentShape, KnowsAnEllipseAndAWaist) {
     EXPECT_NEAR(dogboning(waist), 0.8 / 2.9, 0.005);
 }
 
-TEST(StentShape, NeedsStrutsInEverySlice) {
-    EXPECT_THROW(measure_stent_shape(face([](double, double) { return 1e-3; }, 3, 4), 8), GeometryError);
-    EXPECT_THROW(measure_stent_shape({}, 8), GeometryError);
+TEST(StentProfile, NeedsStrutsInEverySlice) {
+    EXPECT_THROW(measure_stent_profile(face([](double, double) { return 1e-3; }, 3, 4), 8), GeometryError);
+    EXPECT_THROW(measure_stent_profile({}, 8), GeometryError);
 }
 
 TEST(StentShares, AreOfWhatWasBefore) {
@@ -90,7 +90,7 @@ TEST(JailedOstia, HaveTheAreaOfTheSideBranchOnTheStent) {
     // int over |along| < b of 2 a asin(sqrt(b^2 - s^2) / a).
     const double a = 1.5e-3, b = 0.8e-3;
     const SignedDistance y = union_of_round_cones({{{-20e-3, 0, 0}, {20e-3, 0, 0}, a, a}, {{0, 0, 0}, {0, 15e-3, 0}, b, b}});
-    const StentShape shape = measure_stent_shape(face([=](double, double) { return a; }), 10);
+    const StentProfile shape = measure_stent_profile(face([=](double, double) { return a; }), 10);
     double expected = 0;
     const int n = 2000;
     for (int k = 0; k < n; ++k) {
@@ -120,7 +120,7 @@ TEST(JailedOstia, HaveTheAreaOfTheSideBranchOnTheStent) {
 }
 
 TEST(JailedOstia, ThereAreNoneInATube) {
-    const StentShape shape = measure_stent_shape(face([](double, double) { return 1.5e-3; }), 10);
+    const StentProfile shape = measure_stent_profile(face([](double, double) { return 1.5e-3; }), 10);
     EXPECT_TRUE(find_jailed_ostia(shape, {}, round_tube(1.6e-3)).empty());
 }
 

@@ -62,7 +62,7 @@ double mean_diameter_where(const std::vector<StentSlice>& slices, Wanted wanted)
     return sum / count;
 }
 
-double radius_at(const StentShape& shape, double along) {
+double radius_at(const StentProfile& shape, double along) {
     const auto& s = shape.slices;
     for (std::size_t k = 1; k < s.size(); ++k)
         if (along < s[k].along) {
@@ -74,13 +74,13 @@ double radius_at(const StentShape& shape, double along) {
 
 }   // namespace
 
-StentShape measure_stent_shape(std::span<const StentPoint> outer, int slices) {
+StentProfile measure_stent_profile(std::span<const StentPoint> outer, int slices) {
     const auto [first, last] = std::minmax_element(outer.begin(), outer.end(), [](const auto& a, const auto& b) { return a.along < b.along; });
     if (outer.empty() || slices < 1 || !(last->along > first->along)) throw GeometryError("A stent without a length has no measures.");
     const double low = first->along, length = last->along - low;
     std::vector<std::vector<StentPoint>> places(static_cast<std::size_t>(slices));
     for (const StentPoint& p : outer) places[std::min(std::size_t((p.along - low) / length * slices), places.size() - 1)].push_back(p);
-    StentShape shape{.slices = {}, .length = length, .least_diameter = Bounds::infinity, .mean_diameter = 0, .most_diameter = 0, .least_area = Bounds::infinity,
+    StentProfile shape{.slices = {}, .length = length, .least_diameter = Bounds::infinity, .mean_diameter = 0, .most_diameter = 0, .least_area = Bounds::infinity,
                      .end_diameter = 0, .middle_diameter = 0};
     for (std::size_t k = 0; k < places.size(); ++k) {
         if (places[k].size() < 3) throw GeometryError("A stent has fewer than three places in a slice of its length; take fewer slices.");
@@ -99,7 +99,7 @@ double recoil(double inflated_diameter, double deflated_diameter) { return (infl
 
 double foreshortening(double length_before, double length_after) { return (length_before - length_after) / length_before; }
 
-double dogboning(const StentShape& shape) { return (shape.end_diameter - shape.middle_diameter) / shape.end_diameter; }
+double dogboning(const StentProfile& shape) { return (shape.end_diameter - shape.middle_diameter) / shape.end_diameter; }
 
 double reach_to_wall(const SignedDistance& lumen, const Vec3& from, const Vec3& direction, double most) {
     double way = 0;
@@ -135,7 +135,7 @@ StrutFit measure_fit(std::span<const Vec3> places, std::span<const double> areas
     return fit;
 }
 
-std::vector<JailedOstium> find_jailed_ostia(const StentShape& shape, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule) {
+std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule) {
     const double cell = pi * shape.mean_diameter / directions;
     const int rows = std::max(1, int(std::ceil(shape.length / cell)));
     const double low = shape.slices.front().along - 0.5 * shape.length / double(shape.slices.size());

@@ -20,7 +20,7 @@ struct StentSlice {
 };
 
 /// A stent's outer measures.
-struct StentShape {
+struct StentProfile {
     std::vector<StentSlice> slices;
     double length;                             ///< over all [m]
     double least_diameter, mean_diameter, most_diameter;   ///< of the slices' mean diameters [m]
@@ -31,12 +31,12 @@ struct StentShape {
 
 /// Of places on the outer faces of struts, as many slices as asked for. In a slice radii between struts are interpolated over the angle.
 /// Throws GeometryError for fewer than three places in a slice.
-StentShape measure_stent_shape(std::span<const StentPoint> outer, int slices);
+StentProfile measure_stent_profile(std::span<const StentPoint> outer, int slices);
 
 /// Shares, not percent.
 double recoil(double inflated_diameter, double deflated_diameter);
 double foreshortening(double length_before, double length_after);
-double dogboning(const StentShape& shape);   ///< (ends - middle) / ends
+double dogboning(const StentProfile& shape);   ///< (ends - middle) / ends
 
 /// How far a straight line goes until it meets the wall [m]; `most` if it goes farther. The lumen's distance, negative inside.
 double reach_to_wall(const SignedDistance& lumen, const Vec3& from, const Vec3& unit_direction, double most);
@@ -64,7 +64,7 @@ struct JailedOstium {
     double area;    ///< of that face in front of it [m^2]
 };
 /// By rays from the axis on a grid of the stent's outer face; smaller ones than a hundredth of the stent's cross-section do not count.
-std::vector<JailedOstium> find_jailed_ostia(const StentShape& shape, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule = {});
+std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule = {});
 
 /// The value below which this share of the weight lies; 0 of nothing.
 double weighted_percentile(std::span<const double> values, std::span<const double> weights, double share);

@@ -133,7 +133,9 @@ public:
         WallPlace place{lumen_.value(x), 0, sum / weights, 0};
         place.healthy = is_filled_ ? std::min(place.lumen, healthy) : place.lumen;
         const double far = 2 * nearest->radius;
-        if (nearest->end < 0) {
+        if (least > far + nearest->thickness) {
+            place.region = far;   // beside it: another vessel's
+        } else if (nearest->end < 0) {
             place.region = nearest->is_inside ? -far : far;
         } else {
             const VesselEnd& end = ends_[std::size_t(nearest->end)];

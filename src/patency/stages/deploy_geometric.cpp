@@ -62,7 +62,7 @@ void deploy_geometrically(const deck::Case& config, const DeployStage& stage) {
     const StrutCurves opened = make_strut_curves(at_diameter(place.pattern, place.diameter));
     write_surface(stage.folder.file("stent.vtp"), make_stent_surface(opened, place.axis));
     const OuterFaces outer = outer_faces_of(opened, place.axis);
-    const StentShape shape = measure_stent_shape(seen_from(place.axis, outer.places), slices_for(place.pattern));
+    const StentProfile shape = measure_stent_profile(seen_from(place.axis, outer.places), slices_for(place.pattern));
     const SignedDistance lumen = make_exact_distance(closed_at(after.checked.surface, after.checked.ends));
     const StrutFit fit = measure_fit(outer.places, outer.areas, place.axis, lumen);
     write_stent_table(stage.folder.file("stent.csv"), shape);

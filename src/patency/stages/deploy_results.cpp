@@ -62,7 +62,7 @@ LumenGain lumen_gain(const StentPlace& place, const VesselAlong& before, const V
     return gain;
 }
 
-Json deploy_summary(const StentPlace& place, const StentShape& shape, const StrutFit& fit, const std::vector<JailedOstium>& ostia, const LumenGain& gain) {
+Json deploy_summary(const StentPlace& place, const StentProfile& shape, const StrutFit& fit, const std::vector<JailedOstium>& ostia, const LumenGain& gain) {
     Json jailed = Json::array();
     for (const JailedOstium& o : ostia) jailed.push_back({{"area_mm2", 1e6 * o.area}, {"centre_mm", {1e3 * o.centre.x, 1e3 * o.centre.y, 1e3 * o.centre.z}}});
     double ostia_area = 0;
@@ -90,7 +90,7 @@ Json deploy_summary(const StentPlace& place, const StentShape& shape, const Stru
               {"residual_stenosis_percent", 100 * gain.residual_stenosis()}}}};
 }
 
-void write_stent_table(const std::filesystem::path& path, const StentShape& shape) {
+void write_stent_table(const std::filesystem::path& path, const StentProfile& shape) {
     CsvWriter table(path, {"along_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm", "area_mm2"});
     for (const StentSlice& s : shape.slices)
         table.write_row({1e3 * s.along, 1e3 * s.mean_diameter, 1e3 * s.least_diameter, 1e3 * s.most_diameter, 1e6 * s.area});

@@ -35,10 +35,10 @@ struct LumenGain {
 LumenGain lumen_gain(const StentPlace& place, const VesselAlong& before, const Vessel& after);
 
 /// Keys of `deploy` that hold for every mode: mode, where, and the figures of the three.
-nlohmann::ordered_json deploy_summary(const StentPlace& place, const StentShape& shape, const StrutFit& fit, const std::vector<JailedOstium>& ostia,
+nlohmann::ordered_json deploy_summary(const StentPlace& place, const StentProfile& shape, const StrutFit& fit, const std::vector<JailedOstium>& ostia,
                                       const LumenGain& gain);
 
 /// stent.csv: a row per slice. Throws FileError.
-void write_stent_table(const std::filesystem::path& path, const StentShape& shape);
+void write_stent_table(const std::filesystem::path& path, const StentProfile& shape);
 
 }   // namespace patency

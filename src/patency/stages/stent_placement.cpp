@@ -163,7 +163,9 @@ StentPlace place_stent(const deck::Case& config, const Vessel& vessel) {
     const std::vector<double>& healthy = along.assessment.healthy_diameter[middle.line];
     place.reference_diameter = 0.5 * (value_at(line, healthy, place.start_arc()) + value_at(line, healthy, place.end_arc()));
     expect_inside(place, vessel);
-    if (config.deployment.mode != deck::DeploymentMode::geometric) expect_passage(place, line, config.deployment);
+    if (config.deployment.mode == deck::DeploymentMode::geometric) return place;
+    at_diameter(place.pattern, place.crimped_diameter);   // its struts must have room
+    expect_passage(place, line, config.deployment);
     return place;
 }
 
