@@ -31,6 +31,7 @@ constexpr std::array table{
     Unit{area, "mm^2", 1, 1e6},
     Unit{time, "s", 1, 1},
     Unit{time, "ms", 1, 1e3},
+    Unit{time, "us", 1, 1e6},
     Unit{time, "min", 60, 1},
     Unit{time, "h", 3600, 1},
     Unit{velocity, "m/s", 1, 1},

@@ -131,7 +131,7 @@ const Table& table_of<Case>() {
         row(&Case::openings, {.key = "openings", .help = "what happens at each opening, by its name", .only = flow}),
         row(&Case::aorta, {.key = "aorta", .help = "the aorta, the reference of FFR", .only = flow}),
         row(&Case::bed, {.key = "bed", .help = "the small vessels behind the outlets", .only = flow}),
-        row(&Case::stent, {.key = "stent", .help = "the stent and where it is", .only = flow}),
+        row(&Case::stent, {.key = "stent", .help = "the stent and where it is"}),
         row(&Case::deployment, {.key = "deployment", .help = "how the stent is implanted", .only = flow}),
         row(&Case::solids, {.key = "solids", .help = "solids by themselves, instead of a flow"}),
         row(&Case::contacts, {.key = "contacts", .help = "which solids touch"}),
