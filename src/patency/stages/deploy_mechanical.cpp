@@ -11,6 +11,7 @@
 #include "patency/base/errors.h"
 #include "patency/bodies/radial_tool.h"
 #include "patency/bodies/stent_skin.h"
+#include "patency/bodies/tether.h"
 #include "patency/config/deck.h"
 #include "patency/io/csv.h"
 #include "patency/io/pvd.h"
@@ -112,6 +113,7 @@ private:
         } else if (needs_wall && !stent_on_wall_) {
             solids.contacts.clear();
             crimper_ = predilator_ = nullptr;
+            if (config_.deployment.tethering > 0) add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
             stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface, {.friction = config_.deployment.friction, .step = step}));
         }
         if (program_.predilation && !predilator_ && phase <= DeployPhase::enter)
