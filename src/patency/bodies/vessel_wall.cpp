@@ -52,7 +52,7 @@ VesselWall make_vessel_wall(const WallField& field, double spacing, double adven
                                         1e3 * spacing, 1e3 * field.thinnest(), 1e3 * field.thinnest() / 4));
     const SignedDistance body = field.wall();
     const Lumen as_lumen{.distance = body, .openings = {}, .volume = 0, .wall_area = 0, .bounds = body.bounds()};
-    const double volume = measure(as_lumen, spacing / 4).volume;
+    const double volume = measure(as_lumen, spacing / 3).volume;
     StentParticles particles;
     make_stent_particles(body, volume, spacing, particles);
     VesselWall wall{.places = {particles.position.begin(), particles.position.end()}, .volume = volume / double(particles.size()), .layer = {}, .is_at_end = {},

@@ -130,7 +130,8 @@ public:
             if (is_filled_ && over < 0.5 * s.radius)
                 for (const std::size_t next : s.next) healthy = std::min(healthy, distance_to_cone(x, s, stations_[next]));
         }
-        WallPlace place{lumen_.value(x), 0, sum / weights, 0};
+        const DistanceSample lumen = lumen_.sample(x);
+        WallPlace place{lumen.value, 0, sum / weights, 0, lumen.gradient, {}};
         place.healthy = is_filled_ ? std::min(place.lumen, healthy) : place.lumen;
         const double far = 2 * nearest->radius;
         if (least > far + nearest->thickness) {
@@ -140,6 +141,7 @@ public:
         } else {
             const VesselEnd& end = ends_[std::size_t(nearest->end)];
             place.region = std::clamp(dot(x - end.centre, end.normal), -far, far);
+            place.past_end = end.normal;
         }
         return place;
     }
@@ -209,13 +211,14 @@ double WallField::value(const Vec3& x) const {
 }
 
 SignedDistance WallField::wall() const {
-    const double step = 1e-3 * thinnest();
-    return {[field = *this, step](const Vec3& x) {
-                DistanceSample sample{field.value(x), {}, 0};
-                const auto rise = [&](const Vec3& e) { return field.value(x + step * e) - sample.value; };
-                const Vec3 slope = {rise({1, 0, 0}), rise({0, 1, 0}), rise({0, 0, 1})};
-                sample.gradient = norm(slope) > 0 ? normalized(slope) : Vec3{1, 0, 0};
-                return sample;
+    return {[field = *this, step = 1e-3 * thinnest()](const Vec3& x) {
+                const WallPlace p = field.at(x);
+                const double outer = std::min(p.lumen, p.healthy) - p.thickness;
+                if (p.region >= std::max(-p.lumen, outer) && norm(p.past_end) > 0) return DistanceSample{p.region, p.past_end, 0};
+                if (-p.lumen >= outer) return DistanceSample{std::max(-p.lumen, p.region), -p.from_lumen, 0};
+                if (p.lumen <= p.healthy) return DistanceSample{std::max(outer, p.region), p.from_lumen, 0};
+                const auto rise = [&](const Vec3& e) { return field.at(x + step * e).healthy - p.healthy; };
+                return DistanceSample{std::max(outer, p.region), normalized(Vec3{rise({1, 0, 0}), rise({0, 1, 0}), rise({0, 0, 1})}), 0};
             },
             bounds()};
 }

@@ -33,6 +33,8 @@ struct WallPlace {
     double healthy;     ///< the same to the lumen without its lesions; that to the lumen where nothing is filled [m]
     double thickness;   ///< of the vessel's wall there [m]
     double region;      ///< past the nearest end, negative within the part [m]; not farther than a diameter
+    Vec3 from_lumen;    ///< unit, the way in which `lumen` rises
+    Vec3 past_end;      ///< unit, the way in which `region` rises; zero far from ends
 };
 
 /// A value that can be copied; safe to ask from several threads.
@@ -46,7 +48,7 @@ public:
     WallPlace at(const Vec3& x) const;
     /// Negative in the wall: outside of the lumen, inside of the outer face, within the part.
     double value(const Vec3& x) const;
-    SignedDistance wall() const;           ///< the same with a slope, by differences
+    SignedDistance wall() const;           ///< the same with its slope, that of the thickness left out
     const std::vector<VesselEnd>& ends() const;
     double thinnest() const;               ///< [m]
     Bounds bounds() const;                 ///< around the part

@@ -101,7 +101,7 @@ private:
         if (scene_->stent) solids.parts.push_back(std::move(scene_->stent));
         const bool needs_wall = phase != DeployPhase::crimp && phase != DeployPhase::release;
         if (scene_->wall && (needs_wall || program_.predilation)) solids.parts.push_back(std::move(scene_->wall));
-        solids.is_relaxed = phase == DeployPhase::release || phase == DeployPhase::settle;
+        solids.is_relaxed = true;   // what is driven slowly is to be near rest at every moment
         const double step = stable_step(solids);
         const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
             return make_tool_contact(surface, {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
@@ -110,6 +110,7 @@ private:
         phase_ = phase;
         if (phase == DeployPhase::crimp) {
             crimper_ = add(tool(*stent_->surface, RadialTool::Kind::crimper, program_.crimper));
+            add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));   // folded: what it is crimped onto
         } else if (needs_wall && !stent_on_wall_) {
             solids.contacts.clear();
             crimper_ = predilator_ = nullptr;
@@ -235,6 +236,7 @@ private:
         deploy["kinetic_to_internal"] = std::max(marks_.stent_ratio, marks_.wall_ratio);
         deploy["kinetic_to_internal_stent"] = marks_.stent_ratio;
         deploy["kinetic_to_internal_wall"] = marks_.wall_ratio;
+        deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
         deploy["largest_tool_pressure_pa"] = marks_.balloon_pressure;
         deploy["stresses"] = stresses_json(*stent_, *wall_, axis, profile_.length, stent_on_wall_->pushes());
         deploy["particles"] = {{"stent", stent_->body->particles().size()}, {"wall", wall_->body->particles().size()}};

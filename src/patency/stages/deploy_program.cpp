@@ -49,7 +49,7 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
         program.predilation = smooth_radius({0, from, time}, {small, wide, small});
     }
     program.open_from = time;
-    const double folded = 0.8 * (crimped - strut), full = opened - strut;   // clear of the crimped stent
+    const double folded = crimped - strut, full = opened - strut;   // what it is crimped onto; its inner face when it is open
     add(DeployPhase::open, ramp);
     program.open_to = time;
     add(DeployPhase::hold, holding * ramp);

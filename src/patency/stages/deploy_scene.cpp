@@ -17,6 +17,7 @@ namespace {
 
 constexpr double usual_wall_spacing = 0.2e-3;   // m
 constexpr double particles_through = 4;         // the wall, where nothing is said
+constexpr double carrying = 3;                  // spacings that the wall's surfaces look for particles: at the edge of a cut a kernel's support has too few
 
 SolidNumerics numerics_of(const deck::Case& config, double spacing) {
     const deck::SolidSettings& s = config.numerics.solid;
@@ -67,7 +68,7 @@ std::unique_ptr<SolidPart> make_wall_part(const DeployScene& scene) {
     }
     const SolidNumerics numerics = numerics_of(scene.config, scene.wall_spacing);
     part->body = make_solid_body(solid, numerics);
-    part->surface = std::make_unique<SolidSurface>(wall.surface, solid.particles, numerics.kernel().support(), false);
+    part->surface = std::make_unique<SolidSurface>(wall.surface, solid.particles, carrying * scene.wall_spacing, false);
     return part;
 }
 
@@ -104,7 +105,7 @@ void carry_lumen(DeployScene& scene) {
         scene.carried_points.push_back(k);
         mesh.vertices.push_back(x);
     }
-    scene.carrier = std::make_unique<SolidSurface>(mesh, scene.wall->body->particles(), scene.wall->body->numerics().kernel().support(), false);
+    scene.carrier = std::make_unique<SolidSurface>(mesh, scene.wall->body->particles(), carrying * scene.wall_spacing, false);
 }
 
 }   // namespace
