@@ -19,6 +19,7 @@ void add_inspect_command(CLI::App& program, ExitCode& exit_code);
 void add_stent_command(CLI::App& program, ExitCode& exit_code);
 void add_estimate_command(CLI::App& program, ExitCode& exit_code);
 void add_flow_command(CLI::App& program, ExitCode& exit_code);
+void add_deploy_command(CLI::App& program, ExitCode& exit_code);
 void add_solid_command(CLI::App& program, ExitCode& exit_code);
 void add_run_command(CLI::App& program, ExitCode& exit_code);
 void add_report_command(CLI::App& program, ExitCode& exit_code);

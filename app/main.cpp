@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
     app::add_stent_command(program, exit_code);
     app::add_estimate_command(program, exit_code);
     app::add_flow_command(program, exit_code);
+    app::add_deploy_command(program, exit_code);
     app::add_solid_command(program, exit_code);
     app::add_run_command(program, exit_code);
     app::add_report_command(program, exit_code);

@@ -59,10 +59,10 @@ INSTANTIATE_TEST_SUITE_P(Surface, Contacts, ::testing::Values(true, false));
 }   // namespace
 
 TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
-    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .step = step});
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .damping = 0, .step = step});
     EXPECT_EQ(contact->report().touching, 0u) << "before anything was looked at";
     block.move({}), ball.move({0.1e-3, -0.3e-3, 0.05e-3});
-    contact->add_forces(0);
+    contact->add_forces(0, 0);
     const Vec3 on_block = block.load(), on_ball = ball.load();
     const ContactReport report = contact->report();
     EXPECT_GT(report.touching, 1u);
@@ -73,7 +73,7 @@ TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
     EXPECT_NEAR(report.deepest, 0.3e-3, 0.2e-3);
     const auto energy_at = [&](double y) {
         block.move({}), ball.move({0, y, 0});
-        contact->add_forces(0);
+        contact->add_forces(0, 0);
         return contact->report().energy;
     };
     const double d = 1e-9, up = energy_at(d), down = energy_at(-2 * d);
@@ -81,18 +81,18 @@ TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
 }
 
 TEST_P(Contacts, NothingStandsOff) {
-    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .step = step});
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .damping = 0, .step = step});
     block.move({}), ball.move({0, 1e-6, 0});
-    contact->add_forces(0);
+    contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);
 }
 
 TEST_P(Contacts, FrictionOpposesSlidingAndMomentumIsKept) {
-    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .step = step});
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .damping = 0, .step = step});
     block.move({}), ball.move({0, -0.2e-3, 0});
     for (Vec3& v : ball.solid.particles.velocity) v = {3, 0, 0};
     ball.move({}), block.move({});
-    contact->add_forces(1e-3);   // far beyond the bound
+    contact->add_forces(0, 1e-3);   // far beyond the bound
     const Vec3 on_block = block.load(), on_ball = ball.load();
     EXPECT_LT(on_ball.x, 0);
     EXPECT_LT(norm(on_block + on_ball), 1e-14 * norm(on_ball));
@@ -103,9 +103,9 @@ TEST_P(Contacts, FrictionOpposesSlidingAndMomentumIsKept) {
 
 TEST(PlaneContact, PushesOutWhatIsBehind) {
     Body block(fill_box({0, 0, 0}, {5e-3, 4e-3, 0}, spacing, true), spacing, true);
-    const auto contact = make_plane_contact(*block.surface, {0, 0.1e-3, 0}, {0, 1, 0}, {.friction = 0, .step = step});
+    const auto contact = make_plane_contact(*block.surface, {0, 0.1e-3, 0}, {0, 1, 0}, {.friction = 0, .damping = 0, .step = step});
     block.move({});
-    contact->add_forces(0);
+    contact->add_forces(0, 0);
     double expected = 0;
     for (std::size_t v = 0; v < block.surface->size(); ++v)
         if (block.surface->position[v].y < 0.05e-3) expected += 0.1 * block.surface->mass(v) / (step * step) * 0.1e-3;
@@ -117,9 +117,9 @@ TEST(PlaneContact, PushesOutWhatIsBehind) {
 
 TEST(SelfContact, BothSidesOfARingMeetButItsOwnThicknessDoesNotCount) {
     Body ring(fill_cylinder({}, {}, 6e-3, 9e-3, spacing, true), spacing, true);
-    const auto contact = make_surface_contact(*ring.surface, *ring.surface, {.friction = 0, .step = step});
+    const auto contact = make_surface_contact(*ring.surface, *ring.surface, {.friction = 0, .damping = 0, .step = step});
     ring.move({});
-    contact->add_forces(0);
+    contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);
     // Squeezed in the middle until its inner sides cross.
     for (std::size_t i = 0; i < ring.solid.particles.size(); ++i) {
@@ -127,7 +127,7 @@ TEST(SelfContact, BothSidesOfARingMeetButItsOwnThicknessDoesNotCount) {
         x.y -= (x.y > 0 ? 1 : -1) * 6.5e-3 * std::exp(-x.x * x.x / 16e-6);
     }
     ring.move({});
-    contact->add_forces(0);
+    contact->add_forces(0, 0);
     ASSERT_GT(contact->report().touching, 0u);
     EXPECT_LT(norm(ring.load()), 1e-14 * double(contact->pushes().size()) * norm(contact->pushes()[0].force));
 }

@@ -34,3 +34,22 @@ TEST(Friction, SlidesAgainstTheMotionAtTheBound) {
 }
 
 TEST(Penalty, IsATenthOfWhatTheStepWouldStop) { EXPECT_DOUBLE_EQ(penalty_stiffness(2, 0.1), 20); }
+
+TEST(NormalPush, NeverPullsAndOnlyLoses) {
+    const double k = 2e3, depth = 1e-6, step = 1e-7;
+    EXPECT_DOUBLE_EQ(normal_push(k, depth, 0, 0.5, step).force, k * depth);
+    EXPECT_EQ(normal_push(k, depth, 3, 0, step).damper, 0);
+    EXPECT_GT(normal_push(k, depth, 3, 0.5, step).force, k * depth);
+    for (const double approach : {-10.0, -1.0, -0.1, 0.1, 1.0, 10.0}) {
+        const NormalPush push = normal_push(k, depth, approach, 0.5, step);
+        EXPECT_GE(push.force, 0);
+        EXPECT_GT(push.damper * approach, 0);
+    }
+    EXPECT_EQ(normal_push(k, depth, -10, 0.5, step).force, 0);
+}
+
+TEST(NormalPush, IsCriticalAtRatioOne) {   // m x'' = -k x - c x' has c = 2 sqrt(k m)
+    const double m = 1e-9, step = 1e-7, k = penalty_stiffness(m, step);
+    const double c = (normal_push(k, 1e-6, 0.1, 1, step).force - k * 1e-6) / 0.1;
+    EXPECT_NEAR(c, 2 * std::sqrt(k * m), 1e-12 * c);
+}

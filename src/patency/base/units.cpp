@@ -31,6 +31,7 @@ constexpr std::array table{
     Unit{area, "mm^2", 1, 1e6},
     Unit{time, "s", 1, 1},
     Unit{time, "ms", 1, 1e3},
+    Unit{time, "us", 1, 1e6},
     Unit{time, "min", 60, 1},
     Unit{time, "h", 3600, 1},
     Unit{velocity, "m/s", 1, 1},
@@ -52,6 +53,8 @@ constexpr std::array table{
     Unit{pressure, "bar", 1e5, 1},
     Unit{pressure, "atm", 101325, 1},
     Unit{pressure, "dyn/cm^2", 1, 10},
+    Unit{stiffness, "Pa/m", 1, 1},
+    Unit{stiffness, "kPa/mm", 1e6, 1},
     Unit{viscosity, "Pa s", 1, 1},
     Unit{viscosity, "mPa s", 1, 1e3},
     Unit{viscosity, "cP", 1, 1e3},
@@ -81,7 +84,7 @@ constexpr std::array table{
 struct DimensionText {
     std::string_view name, example;
 };
-constexpr std::array<DimensionText, 16> dimension_texts{{
+constexpr std::array<DimensionText, 17> dimension_texts{{
     {"number", "1.5"},
     {"length", "1 mm"},
     {"area", "1 mm^2"},
@@ -91,6 +94,7 @@ constexpr std::array<DimensionText, 16> dimension_texts{{
     {"mass", "1 g"},
     {"density", "1060 kg/m^3"},
     {"pressure", "100 mmHg"},
+    {"stiffness", "10 kPa/mm"},
     {"viscosity", "3.5 mPa s"},
     {"consistency", "0.017 Pa s^n"},
     {"flow", "60 mL/min"},

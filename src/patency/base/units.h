@@ -21,6 +21,7 @@ enum class Dimension {
     mass,          ///< kg
     density,       ///< kg/m^3
     pressure,      ///< Pa; stresses too
+    stiffness,     ///< Pa/m, of a bedding
     viscosity,     ///< Pa s
     consistency,   ///< Pa s^n, of a power law
     flow,          ///< m^3/s; m^2/s in planar cases, per metre of depth

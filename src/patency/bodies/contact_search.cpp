@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "patency/base/parallel.h"
+#include "patency/bodies/cell_hash.h"
 
 namespace patency {
 
@@ -16,15 +17,6 @@ namespace {
 constexpr double reach_in_elements = 1.0;    // deeper than this is no contact but the other side
 constexpr double margin_in_elements = 0.5;   // to move before it is looked again
 constexpr double apart_in_elements = 4.0;    // along the surface, for parts of one surface to touch
-
-struct CellHash {
-    double side;
-    std::uint64_t operator()(const Vec3& x) const { return key(index(x.x), index(x.y), index(x.z)); }
-    std::int64_t index(double x) const { return std::int64_t(std::floor(x / side)); }
-    static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
-        return (std::uint64_t(i) & 0x1fffff) << 42 | (std::uint64_t(j) & 0x1fffff) << 21 | (std::uint64_t(k) & 0x1fffff);
-    }
-};
 
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return std::sqrt(largest_of(a.size(), [&](std::size_t i) { return dot(a[i] - b[i], a[i] - b[i]); }));

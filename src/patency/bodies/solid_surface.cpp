@@ -150,4 +150,12 @@ void SolidSurface::push(SolidParticles& particles) const {
     });
 }
 
+std::vector<double> SolidSurface::carried(const std::vector<double>& by_particle) const {
+    std::vector<double> values(size());
+    for_each_index(size(), [&](std::size_t v) {
+        for (const Share* s = carriers_.begin(v); s < carriers_.end(v); ++s) values[v] += s->weight * by_particle[s->index];
+    });
+    return values;
+}
+
 }   // namespace patency

@@ -52,6 +52,9 @@ public:
     /// particles.load += the vertices' forces.
     void push(SolidParticles& particles) const;
 
+    /// What the particles near each vertex have, in its unit, by the weights that carry the vertex.
+    std::vector<double> carried(const std::vector<double>& by_particle) const;
+
     /// The mass [kg] that answers a push on a vertex: 1 over sum N^2/m.                                THEORY (21.3)
     double mass(std::size_t vertex) const { return mass_[vertex]; }
     /// Area [m^2; planar: m] in the reference configuration, a third of each of its elements.

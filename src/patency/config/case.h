@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "patency/base/vec.h"
+#include "patency/config/deployment_deck.h"
 #include "patency/config/solid_deck.h"
 
 namespace patency::deck {
@@ -36,12 +37,6 @@ inline Words words(ShapeType) { return {"channel", "box", "tube", "cone", "nozzl
 
 enum class BloodLaw { newtonian, carreau_yasuda, casson, power_law };
 inline Words words(BloodLaw) { return {"newtonian", "carreau_yasuda", "casson", "power_law"}; }
-
-enum class WallMotion { rigid, one_way, deformable };
-inline Words words(WallMotion) { return {"rigid", "one_way", "deformable"}; }
-
-enum class Slip { no_slip, free_slip };
-inline Words words(Slip) { return {"no_slip", "free_slip"}; }
 
 enum class OpeningType { velocity, flow, pressure, resistance, rcr, coronary };
 inline Words words(OpeningType) { return {"velocity", "flow", "pressure", "resistance", "rcr", "coronary"}; }
@@ -163,16 +158,6 @@ struct Blood {
     bool operator==(const Blood&) const = default;
 };
 
-struct Wall {
-    WallMotion motion = WallMotion::rigid;
-    Slip slip = Slip::no_slip;
-    std::map<std::string, Vec3> velocity;   ///< m/s, by the wall's name, or "all"
-    std::optional<double> thickness;        ///< m
-    std::optional<std::string> law;
-    Kept plaque;
-    bool operator==(const Wall&) const = default;
-};
-
 /// mean + sum_k cosines[k] cos(2 pi (k+1) t / period) + sines[k] sin(2 pi (k+1) t / period)
 struct Fourier {
     double mean = 0;                     ///< in the unit of the waveform
@@ -266,8 +251,9 @@ struct Stent {   // exactly one of design, pattern, surface
     std::optional<std::filesystem::path> surface;   ///< closed, of the metal
     std::optional<std::string> unit;                ///< of the surface's coordinates
     std::optional<std::string> alloy;               ///< absent: the design's
-    std::optional<StentPlacement> placement;
+    std::optional<StentPlacement> placement;   ///< absent: the middle of the worst lesion
     std::optional<double> spacing;   ///< m between its particles; absent: a quarter of a strut
+    std::optional<SolidMaterialChoice> material;   ///< absent: the alloy's of the table
     bool operator==(const Stent&) const = default;
 };
 
@@ -349,6 +335,7 @@ struct Case {
     Aorta aorta;
     Bed bed;
     std::optional<Stent> stent;
+    Deployment deployment;
     std::vector<SolidDeck> solids;        ///< with them there is no geometry and no blood
     std::vector<ContactDeck> contacts;
     Initial initial;

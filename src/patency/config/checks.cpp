@@ -185,6 +185,13 @@ private:
             if (contact.with)
                 expect(is_known(*contact.with), path + "with", "there is no solid " + double_quoted(shortened(*contact.with)));
             if (contact.plane) expect(norm(contact.plane->normal) > 0, path + "plane.normal", "must not be zero");
+            if (contact.tool) {
+                const RadialToolDeck& tool = *contact.tool;
+                expect(norm(tool.to - tool.from) > 0, path + "tool.to", "is the same point as `from`", {path + "tool.from"});
+                expect(tool.diameters.size() == tool.times.size(), path + "tool.diameters", "there must be one for each of times", {path + "tool.times"});
+                check_increasing(path + "tool.times", tool.times, "s");
+                expect(!case_.numerics.solid.plane_strain, path + "tool", "is not planar; numerics.solid.plane_strain is true");
+            }
         }
     }
 
@@ -198,6 +205,10 @@ private:
             expect(s.inner_diameter < s.diameter, path + "inner_diameter", "must be less than the diameter", {path + "diameter"});
         }
         if (s.type == SolidShapeType::sphere) expect(!planar, path + "type", "is not planar; use a cylinder along z with numerics.solid.plane_strain");
+        if (s.type == SolidShapeType::stent) {
+            expect(!planar, path + "type", "is not planar; numerics.solid.plane_strain is true");
+            expect(case_.stent.has_value(), path + "type", "needs a stent in the deck", {"stent"});
+        }
     }
 
     void check_blood() {

@@ -49,22 +49,6 @@ const Table& table_of<Blood>() {
 }
 
 template <>
-const Table& table_of<Wall>() {
-    static const Table table = make_table<Wall>("The vessel wall.", {
-        row(&Wall::motion, {.key = "motion", .help = "rigid, loaded by the flow (one_way), or moving with it"}),
-        row(&Wall::slip, {.key = "slip", .help = "whether blood sticks to the wall"}),
-        row(&Wall::velocity, {.key = "velocity", .help = "velocities of walls that slide, by the wall's name or all",
-                              .unit = "m/s", .range = between(-largest_speed, largest_speed)}),
-        row(&Wall::thickness, {.key = "thickness", .help = "the thickness of the wall", .unit = "mm",
-                               .range = above_up_to(0, largest_length), .example = "0.8 mm",
-                               .need = where("motion", {"one_way", "deformable"})}),
-        row(&Wall::law, {.key = "law", .help = "the material law of the wall", .example = "neo_hookean"}),
-        row(&Wall::plaque, {.key = "plaque", .help = "the diseased part of the wall"}),
-    });
-    return table;
-}
-
-template <>
 const Table& table_of<Fourier>() {
     static const Table table = make_table<Fourier>("mean + sum of cosines[k] cos(2 pi (k+1) t/period) and sines alike.", {
         row(&Fourier::mean, {.key = "mean", .help = "the mean", .unit = std::string(signal_unit), .need = always}),

@@ -181,9 +181,10 @@ const Table& table_of<Stent>() {
             row(&Stent::unit, {.key = "unit", .help = "the unit of the surface's coordinates", .example = "\"mm\""}),
             row(&Stent::alloy, {.key = "alloy", .help = "what it is made of: L605, MP35N, 316L, PtCr or nitinol; the design's if absent",
                                 .example = "\"L605\""}),
-            row(&Stent::placement, {.key = "placement", .help = "where it is"}),
+            row(&Stent::placement, {.key = "placement", .help = "where it is; around the worst lesion if absent"}),
             row(&Stent::spacing, {.key = "spacing", .help = "the distance between its particles; a quarter of a strut if absent", .unit = "um",
                                   .range = above_up_to(0, 1e-3), .example = "20 um"}),
+            row(&Stent::material, {.key = "material", .help = "what it is made of as a solid; the alloy's if absent"}),
         },
         {{.keys = {"design", "pattern", "surface"}}});
     return table;

@@ -100,6 +100,8 @@ const Table& table_of<SolidDeck>() {
         row(&SolidDeck::material, {.key = "material", .help = "what it is made of", .need = always}),
         row(&SolidDeck::spacing, {.key = "spacing", .help = "the distance between its particles; that of numerics if absent", .unit = "mm",
                                   .range = above_up_to(0, 1), .example = "0.1 mm"}),
+        row(&SolidDeck::mass_scaling, {.key = "mass_scaling", .help = "a factor on its density: a longer step, where its inertia counts for nothing",
+                                       .range = between(1, 1e8), .example = "100"}),
         row(&SolidDeck::velocity, {.key = "velocity", .help = "at the start", .unit = "m/s", .range = between(-1e4, 1e4)}),
         row(&SolidDeck::holds, {.key = "holds", .help = "particles that are held or led"}),
         row(&SolidDeck::pressures, {.key = "pressures", .help = "pressures on its faces"}),
@@ -117,13 +119,28 @@ const Table& table_of<Plane>() {
 }
 
 template <>
+const Table& table_of<RadialToolDeck>() {
+    static const Table table = make_table<RadialToolDeck>("A rigid tube of a diameter that changes.", {
+        row(&RadialToolDeck::type, {.key = "type", .help = "a balloon pushes outwards, a crimper inwards", .need = always}),
+        row(&RadialToolDeck::from, {.key = "from", .help = "one end of its axis", .unit = "mm", .range = between(-largest_length, largest_length), .need = always}),
+        row(&RadialToolDeck::to, {.key = "to", .help = "the other end", .unit = "mm", .range = between(-largest_length, largest_length), .need = always}),
+        row(&RadialToolDeck::times, {.key = "times", .help = "when", .unit = "s", .range = at_least(0), .need = always}),
+        row(&RadialToolDeck::diameters, {.key = "diameters", .help = "its diameter at these times, smooth between", .unit = "mm",
+                                         .range = above_up_to(0, largest_length), .need = always}),
+    });
+    return table;
+}
+
+template <>
 const Table& table_of<ContactDeck>() {
     static const Table table = make_table<ContactDeck>("What touches what.", {
         row(&ContactDeck::solid, {.key = "solid", .help = "the name of a solid", .example = "\"stent\"", .need = always}),
         row(&ContactDeck::with, {.key = "with", .help = "the name of another, or the same: its parts touch each other", .example = "\"wall\""}),
         row(&ContactDeck::plane, {.key = "plane", .help = "a rigid plane"}),
+        row(&ContactDeck::tool, {.key = "tool", .help = "a balloon or a crimper"}),
         row(&ContactDeck::friction, {.key = "friction", .help = "Coulomb's coefficient", .range = between(0, 10)}),
-    }, {{.keys = {"with", "plane"}}});
+        row(&ContactDeck::damping, {.key = "damping", .help = "of the approach, over the critical; it never pulls", .range = between(0, 1)}),
+    }, {{.keys = {"with", "plane", "tool"}}});
     return table;
 }
 

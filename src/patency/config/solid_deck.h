@@ -12,8 +12,11 @@
 
 namespace patency::deck {
 
-enum class SolidShapeType { box, cylinder, sphere };
-inline std::vector<std::string_view> words(SolidShapeType) { return {"box", "cylinder", "sphere"}; }
+enum class SolidShapeType { box, cylinder, sphere, stent };
+inline std::vector<std::string_view> words(SolidShapeType) { return {"box", "cylinder", "sphere", "stent"}; }
+
+enum class RadialToolType { balloon, crimper };
+inline std::vector<std::string_view> words(RadialToolType) { return {"balloon", "crimper"}; }
 
 enum class SolidLawName { neo_hookean, st_venant_kirchhoff, mooney_rivlin, yeoh, fibre_artery, j2_plastic };
 inline std::vector<std::string_view> words(SolidLawName) {
@@ -23,7 +26,7 @@ inline std::vector<std::string_view> words(SolidLawName) {
 enum class Relaxation { none, adaptive };
 inline std::vector<std::string_view> words(Relaxation) { return {"none", "adaptive"}; }
 
-/// A solid by its measures, filled with particles that fit it: rows of a box, rings of a cylinder.
+/// A solid by its measures, filled with particles that fit it: rows of a box, rings of a cylinder; or the deck's stent.
 struct SolidShape {
     SolidShapeType type = SolidShapeType::box;
     Vec3 from, to;               ///< box: corners; cylinder: ends of its axis (planar: any along z); m
@@ -75,6 +78,7 @@ struct SolidDeck {
     SolidShape shape;
     SolidMaterialChoice material;
     std::optional<double> spacing;   ///< m; absent: that of numerics
+    double mass_scaling = 1;         ///< on its density, for a longer step where inertia counts for nothing
     Vec3 velocity;                   ///< m/s at the start
     std::vector<Hold> holds;
     std::vector<FacePressure> pressures;
@@ -87,11 +91,22 @@ struct Plane {
     bool operator==(const Plane&) const = default;
 };
 
-struct ContactDeck {   // exactly one of with, plane
+/// A rigid tube of a radius that changes: a balloon pushes what is within it outwards, a crimper what is outside inwards.
+struct RadialToolDeck {
+    RadialToolType type = RadialToolType::balloon;
+    Vec3 from, to;                   ///< m, the ends of its axis
+    std::vector<double> times;       ///< s, increasing
+    std::vector<double> diameters;   ///< m at these times, smooth between and constant after
+    bool operator==(const RadialToolDeck&) const = default;
+};
+
+struct ContactDeck {   // exactly one of with, plane, tool
     std::string solid;
     std::optional<std::string> with;   ///< the other solid; the same: parts of it touch each other
     std::optional<Plane> plane;        ///< rigid, at rest
+    std::optional<RadialToolDeck> tool;
     double friction = 0;               ///< Coulomb's coefficient
+    double damping = 0;                ///< of the approach, over the critical
     bool operator==(const ContactDeck&) const = default;
 };
 

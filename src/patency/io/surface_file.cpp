@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -104,6 +105,25 @@ void write_surface(const std::filesystem::path& path, const Surface& surface) {
                           .triangles = surface.triangles,
                           .face_ids = surface.face_ids,
                           .space = surface.space});
+}
+
+void write_stl(const std::filesystem::path& path, const Surface& surface, std::string_view unit) {
+    const std::vector<std::string> units = unit_names(Dimension::length);
+    if (std::find(units.begin(), units.end(), unit) == units.end())
+        throw UsageError(fmt::format("'{}' is no unit of a surface; it is one of {}.", shortened(unit), join(units, ", ", " or ")));
+    const double per_metre = in_unit(1, unit);
+    std::string bytes = surface.space.empty() ? "" : "SPACE=" + surface.space;   // as 3D Slicer marks it
+    bytes.resize(80, ' ');
+    const auto append = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    append(std::uint32_t(surface.triangles.size()));
+    for (const Triangle& t : surface.triangles) {
+        const Vec3 n = area_vector(surface, t), unit_normal = norm(n) > 0 ? n / norm(n) : Vec3{};
+        const std::array<Vec3, 4> vectors = {unit_normal, per_metre * surface.points[t[0]], per_metre * surface.points[t[1]], per_metre * surface.points[t[2]]};
+        for (const Vec3& v : vectors)
+            for (const double c : {v.x, v.y, v.z}) append(float(c));
+        append(std::uint16_t(0));
+    }
+    write_file(path, bytes);
 }
 
 }   // namespace patency

@@ -22,4 +22,8 @@ Surface read_surface(const std::filesystem::path& path, std::string_view unit, s
 /// The surface as VTP: mm, its unit and the mark SPACE in FieldData, face_ids as ModelFaceID. Throws FileError.
 void write_surface(const std::filesystem::path& path, const Surface& surface);
 
+/// The surface as binary STL, its numbers in `unit` (STL carries none), the mark SPACE in its header. Throws FileError, UsageError for
+/// another unit.
+void write_stl(const std::filesystem::path& path, const Surface& surface, std::string_view unit);
+
 }   // namespace patency

@@ -54,12 +54,11 @@ void SolidBody::drift(double dt, double time) {
         const Vec3 place = p.reference[i] + displacement_of(c, p.reference[i], time);
         p.position[i] = moved + masked(place - moved, c.held);
     });
-    write_records();
 }
 
 void SolidBody::kick(double dt, double time, double drag) {
     SolidParticles& p = particles();
-    const double keep = (1 - 0.5 * drag * dt) / (1 + 0.5 * drag * dt), push = dt / (1 + 0.5 * drag * dt);
+    const double slowing = 0.5 * drag * dt, keep = (1 - slowing) / (1 + slowing), push = dt / (1 + slowing);
     const Powers powers = reduce(
         p.size(), Powers{0, 0},
         [&](std::size_t i) {

@@ -79,7 +79,7 @@ protected:
     SolidBody(Solid& solid, const SolidNumerics& numerics) : solid_(solid), numerics_(numerics) {}
     /// To be called when the particles have their final order.
     void find_constrained();
-    /// Whatever the loops need of positions and velocities.
+    /// Whatever the loops need of positions and velocities; before they run.
     virtual void write_records() = 0;
     virtual double hourglass_energy() const = 0;   ///< [J]
     virtual double viscous_power() const = 0;      ///< [W] of the last compute_force

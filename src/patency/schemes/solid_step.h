@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step of several solids with what acts on them: the same time for all.                         THEORY (20.11)
+// One step of several solids with what acts on them. Each computes its stress as often as it must; what touches meets at
+// the step of the fastest.                                                                  THEORY (20.11), (20.15)
 #pragma once
 
 #include <memory>
@@ -25,6 +26,9 @@ struct SolidPart {
     std::unique_ptr<SolidBody> body;
     std::unique_ptr<SolidSurface> surface;
     std::vector<SolidPressure> pressures;
+    double mass_scaling = 1;   ///< that its density was multiplied by, for the record
+    int stride = 1;            ///< steps of the fastest part for which one of its stresses is held: a power of three
+    double drag = 0;           ///< of dynamic relaxation, held as long [1/s]
 };
 
 struct SolidSystem {
@@ -37,7 +41,16 @@ struct SolidSystem {
 /// The longest step that all parts bear now [s].
 double stable_step(const SolidSystem& system);
 
-/// From `time` to time + dt [s]. Throws DivergedError.
+/// Each part's stride: the largest that it bears beside the fastest part. Returns their largest, which a step consists of, times
+/// the stable step [s].                                                                              THEORY (20.15)
+double choose_strides(SolidSystem& system);
+/// The largest stride.
+int strides_in_step(const SolidSystem& system);
+
+/// From `time` to time + dt [s], in as many steps of the fastest part as the largest stride. Throws DivergedError.
 void solid_step(SolidSystem& system, double time, double dt);
+
+/// Steps that a driven ramp needs at least, so that a stent's kinetic energy stays small beside its internal one.
+inline constexpr double least_steps_of_ramp = 15000;
 
 }   // namespace patency

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "patency/base/parallel.h"
+#include "patency/physics/solid/plastic_lanes.h"
 
 namespace patency {
 
@@ -61,21 +62,45 @@ Mat3 lane_of(const Mat<P>& m, std::size_t lane) {
     return {{m.x.x[l], m.x.y[l], m.x.z[l]}, {m.y.x[l], m.y.y[l], m.y.z[l]}, {m.z.x[l], m.z.y[l], m.z.z[l]}};
 }
 
-/// A metal's P, one particle after another, and its state after the step.
+template <class T>
+void put_lane(Mat<Pack<T>>& m, std::size_t l, const Mat3& from) {
+    const auto put = [&](Vec<Pack<T>>& row, const Vec3& r) { row.x.v[l] = T(r.x), row.y.v[l] = T(r.y), row.z.v[l] = T(r.z); };
+    put(m.x, from.x), put(m.y, from.y), put(m.z, from.z);
+}
+
+/// A metal's P and its state after the step, in double whatever T is: what flows adds up over many steps.
 template <class T>
 Mat<Pack<T>> stress_of(const J2Plastic& law, const Mat<Pack<T>>& F, const Lanes<T>& lanes, SolidParticles& particles) {
-    using P = Pack<T>;
-    Mat<P> result{};
-    for (std::size_t l = 0; l < lanes.count; ++l) {
-        const std::uint32_t i = lanes.members[l];
-        const Mat3 Fi = lane_of(F, l);
-        if (!(determinant(Fi) > 0)) continue;   // its logarithm does not exist; the caller sees the determinant
-        const PlasticStress s = law.stress(Fi, {particles.inverse_plastic[i], particles.plastic_strain[i]});
-        particles.inverse_plastic[i] = s.state.inverse_plastic;
-        particles.plastic_strain[i] = s.state.strain;
-        const Mat3 p = pk1_of_kirchhoff(s.kirchhoff, Fi);
-        const auto put = [&](Vec<P>& row, const Vec3& r) { row.x.v[l] = T(r.x), row.y.v[l] = T(r.y), row.z.v[l] = T(r.z); };
-        put(result.x, p.x), put(result.y, p.y), put(result.z, p.z);
+    using D = Pack<double>;
+    constexpr std::size_t width = std::size_t(D::lanes);
+    Mat<Pack<T>> result{};
+    for (std::size_t first = 0; first < lanes.count; first += width) {
+        Mat<D> deformation, inverse_plastic;
+        D strain;
+        for (std::size_t l = 0; l < width; ++l) {   // lanes past the last repeat it
+            const std::uint32_t i = lanes.member(first + l);
+            put_lane<double>(deformation, l, lane_of(F, std::min(first + l, lanes.count - 1)));
+            put_lane<double>(inverse_plastic, l, particles.inverse_plastic[i]);
+            strain.v[l] = particles.plastic_strain[i];
+        }
+        const PlasticLanes<D> s = stress_by_series(law, deformation, inverse_plastic, strain);
+        const Mat<D> pk1 = s.kirchhoff * transpose(s.inverse);
+        const D J = determinant(deformation);
+        for (std::size_t l = 0; l < width && first + l < lanes.count; ++l) {
+            const std::uint32_t i = lanes.members[first + l];
+            if (!(J[int(l)] > 0)) continue;   // its logarithm does not exist; the caller sees the determinant
+            if (s.distance[int(l)] < furthest_series) {
+                if (s.strain[int(l)] > particles.plastic_strain[i]) particles.inverse_plastic[i] = lane_of(s.inverse_plastic, l);
+                particles.plastic_strain[i] = s.strain[int(l)];
+                put_lane<T>(result, first + l, lane_of(pk1, l));
+                continue;
+            }
+            const Mat3 Fi = lane_of(deformation, l);
+            const PlasticStress alone = law.stress(Fi, {particles.inverse_plastic[i], particles.plastic_strain[i]});
+            particles.inverse_plastic[i] = alone.state.inverse_plastic;
+            particles.plastic_strain[i] = alone.state.strain;
+            put_lane<T>(result, first + l, pk1_of_kirchhoff(alone.kirchhoff, Fi));
+        }
     }
     return result;
 }

@@ -36,17 +36,18 @@ public:
         correct_gradients();
         sort_members();
         find_damping();
-        write_records();
         find_constrained();
     }
 
     void compute_deformation() override {
+        write_records();
         sum_deformation();
         for (std::uint32_t i = 0; i < particles().size(); ++i)
             if (!(determinant(deformation(i)) > 0)) report_inside_out(i, time_);
     }
 
     void compute_force(double time) override {
+        write_records();
         sum_deformation();
         std::uint32_t inside_out = no_particle;
         for (std::size_t m = 0; m < members_.size(); ++m)

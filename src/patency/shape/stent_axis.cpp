@@ -109,18 +109,18 @@ Vec3 StentAxis::place(const StentPoint& p) const {
     return f.at + (p.radius * std::cos(p.angle)) * f.normal + (p.radius * std::sin(p.angle)) * f.binormal;
 }
 
-StentPoint StentAxis::coordinates(const Vec3& x) const {
-    // Places in whose normal plane x lies: on a piece a quadratic equation, as place and tangent are linear there.
-    double along = 0, nearest = Bounds::infinity;
+StentAxis::Foot StentAxis::nearest_foot(const Vec3& x, std::size_t begin, std::size_t end) const {
+    // On a piece a quadratic equation, as place and tangent are linear there.
+    Foot foot{0, Bounds::infinity};
     const auto take = [&](double at, double distance) {
-        if (distance < nearest) nearest = distance, along = at;
+        if (distance < foot.distance) foot = {at, distance};
     };
     const Station &first = stations_.front(), &last = stations_.back();
     if (const double past = dot(x - first.at, first.tangent); past <= 0)
         take(first.along + past, norm(x - first.at - past * first.tangent));
     if (const double past = dot(x - last.at, last.tangent); past >= 0)
         take(last.along + past, norm(x - last.at - past * last.tangent));
-    for (std::size_t k = 0; k + 1 < stations_.size(); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
         const Station &a = stations_[k], &b = stations_[k + 1];
         const Vec3 step = b.at - a.at, turn = b.tangent - a.tangent, d = x - a.at;
         const double c0 = dot(d, a.tangent), c1 = dot(d, turn) - dot(step, a.tangent), c2 = -dot(step, turn);
@@ -129,11 +129,25 @@ StentPoint StentAxis::coordinates(const Vec3& x) const {
         const double part = 2 * c0 / (-c1 + std::sqrt(square));
         if (part >= 0 && part <= 1) take(a.along + part * (b.along - a.along), norm(d - part * step));
     }
-    if (!(nearest < Bounds::infinity)) along = 0;   // x is not finite
+    return foot;
+}
+
+StentPoint StentAxis::seen_from(const Vec3& x, double along) const {
     const Frame f = frame_at(along);
     const Vec3 d = x - f.at;
     const double y = dot(d, f.normal), z = dot(d, f.binormal);
     return {std::hypot(y, z), std::atan2(z, y), along};
+}
+
+StentPoint StentAxis::coordinates(const Vec3& x) const {
+    const Foot foot = nearest_foot(x, 0, stations_.size() - 1);
+    return seen_from(x, foot.distance < Bounds::infinity ? foot.along : 0);   // else x is not finite
+}
+
+StentPoint StentAxis::coordinates(const Vec3& x, double along) const {
+    const std::size_t piece = piece_at(along);
+    const Foot foot = nearest_foot(x, piece - std::min<std::size_t>(piece, 2), std::min(piece + 3, stations_.size() - 1));
+    return foot.distance < Bounds::infinity ? seen_from(x, foot.along) : coordinates(x);
 }
 
 Vec3 StentAxis::outward(const StentPoint& p) const {

@@ -33,6 +33,8 @@ public:
     Vec3 place(const StentPoint& p) const;
     /// The nearest such place; past the ends the line goes on straight.
     StentPoint coordinates(const Vec3& x) const;
+    /// The same, looked for first within two points of the line around `along` [m]: fast for a place that moves little.
+    StentPoint coordinates(const Vec3& x, double along) const;
     Vec3 outward(const StentPoint& p) const;   ///< unit, away from the axis
     Vec3 tangent(const StentPoint& p) const;   ///< unit, along the axis
     /// Length along there over length along the axis: THEORY (16.5).
@@ -47,6 +49,12 @@ private:
         Vec3 at, tangent, normal, binormal;
     };
     std::size_t piece_at(double along) const;
+    /// Of the places on some pieces and past the ends, in whose normal plane x lies: the nearest; none: infinitely far.
+    struct Foot {
+        double along, distance;
+    };
+    Foot nearest_foot(const Vec3& x, std::size_t first, std::size_t last) const;
+    StentPoint seen_from(const Vec3& x, double along) const;
     Frame frame_at(double along) const;
 
     std::vector<Station> stations_;   // two or more

@@ -31,7 +31,8 @@ struct StentMeasures {
 /// Throws GeometryError if struts overlap or do not join: if the metal falls into pieces or has other cells than the pattern.
 StentMeasures measure_stent(const StrutCurves& curves, double resolution = 0);
 
-/// The metal as a closed surface with sharp edges, along an axis.
+/// The metal as a closed surface with sharp edges, along an axis. Points 2k are on the outer face, 2k + 1 below them on the
+/// inner one.
 Surface make_stent_surface(const StrutCurves& curves, const StentAxis& axis = {}, double resolution = 0);
 
 }   // namespace patency

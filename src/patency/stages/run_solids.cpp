@@ -36,7 +36,7 @@ public:
         say(fmt::format("stable step {:.4g} s", stable_step(scene_->system)));
         energies_.emplace(stage.folder.file("energies.csv"),
                           std::vector<std::string>{"time_s", "kinetic_j", "elastic_j", "hourglass_j", "plastic_j", "contact_j", "viscous_loss_j",
-                                                   "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j"});
+                                                   "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j", "damping_loss_j", "tool_work_j"});
     }
 
     bool run() {
@@ -87,10 +87,10 @@ private:
         }
         for (const auto& c : scene_->system.contacts) {
             const ContactReport r = c->report();
-            contact.energy += r.energy, contact.friction_loss += r.friction_loss;
+            contact.energy += r.energy, contact.friction_loss += r.friction_loss, contact.damping_loss += r.damping_loss, contact.work += r.work;
         }
         energies_->write_row({scene_->time, sum.kinetic, sum.elastic, sum.hourglass, sum.plastic, contact.energy, sum.viscous, sum.drag,
-                              contact.friction_loss, sum.load_work, sum.constraint_work});
+                              contact.friction_loss, sum.load_work, sum.constraint_work, contact.damping_loss, contact.work});
     }
 
     void write_frames() {

@@ -49,6 +49,7 @@ Json part_json(SolidPart& part) {
     Json reactions = Json::array();
     for (std::size_t k = 0; k < part.solid.constraints.size(); ++k) reactions.push_back(vector_json(body.reaction_impulse(k)));
     return {{"particles", p.size()},
+            {"mass_scaling", part.mass_scaling},
             {"neighbours", body.mean_neighbours()},
             {"mass_kg", mass},
             {"young_pa", m.young()}, {"poisson", m.poisson()}, {"shear_pa", m.shear}, {"bulk_pa", m.bulk},
@@ -95,8 +96,9 @@ nlohmann::ordered_json solid_summary(SolidScene& scene) {
     for (std::size_t k = 0; k < scene.system.contacts.size(); ++k) {
         const ContactReport r = scene.system.contacts[k]->report();
         const deck::ContactDeck& said = scene.config.contacts[k];
-        contacts.push_back({{"solid", said.solid}, {"with", said.with.value_or("plane")}, {"force_n", vector_json(r.force)}, {"touching_vertices", r.touching},
-                            {"largest_penetration_m", r.deepest}, {"energy_j", r.energy}, {"friction_loss_j", r.friction_loss}});
+        contacts.push_back({{"solid", said.solid}, {"with", said.with.value_or(said.plane ? "plane" : deck::words(said.tool->type)[std::size_t(said.tool->type)].data())}, {"force_n", vector_json(r.force)}, {"touching_vertices", r.touching},
+                            {"largest_penetration_m", r.deepest}, {"energy_j", r.energy}, {"friction_loss_j", r.friction_loss},
+                            {"damping_loss_j", r.damping_loss}, {"work_j", r.work}, {"normal_force_n", r.normal_force}, {"pressure_pa", r.pressure}});
     }
     summary["solids"] = std::move(solids);
     summary["contacts"] = std::move(contacts);

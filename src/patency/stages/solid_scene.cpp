@@ -5,10 +5,15 @@
 #include <cmath>
 
 #include "patency/base/errors.h"
+#include "patency/base/smooth_rise.h"
 #include "patency/base/text.h"
 #include "patency/bodies/closest_point.h"
+#include "patency/bodies/radial_tool.h"
 #include "patency/bodies/solid_shape.h"
+#include "patency/bodies/stent.h"
 #include "patency/stages/solid_material.h"
+#include "patency/stages/stent_of_case.h"
+#include "patency/stages/stent_part.h"
 
 namespace patency {
 
@@ -18,7 +23,8 @@ SolidFill fill_shape(const deck::SolidShape& s, double spacing, bool planar) {
     switch (s.type) {
         case deck::SolidShapeType::box: return fill_box(s.from, s.to, spacing, planar);
         case deck::SolidShapeType::cylinder: return fill_cylinder(s.from, s.to, 0.5 * s.inner_diameter, 0.5 * s.diameter, spacing, planar);
-        case deck::SolidShapeType::sphere: break;
+        case deck::SolidShapeType::sphere:
+        case deck::SolidShapeType::stent: break;   // a stent is made as one
     }
     return fill_sphere(s.centre, 0.5 * s.diameter, spacing);
 }
@@ -61,19 +67,13 @@ bool is_held(const Vec3& x, const deck::Hold& h, const SurfaceElements& surface,
     return x.x >= h.low->x && x.x <= h.high->x && x.y >= h.low->y && x.y <= h.high->y && x.z >= h.low->z && x.z <= h.high->z;
 }
 
-/// 0 to 1 in `ramp` with no velocity and no acceleration at the ends.
-double smooth_rise(double time, double ramp) {
-    const double s = ramp > 0 ? std::clamp(time / ramp, 0.0, 1.0) : 1.0;
-    return s * s * s * (10 + s * (-15 + 6 * s));
-}
-
 void hold_particles(const deck::SolidDeck& said, const std::string& path, const SurfaceElements& surface, const SolidNumerics& numerics, Solid& solid) {
     SolidParticles& p = solid.particles;
     for (std::size_t k = 0; k < said.holds.size(); ++k) {
         const deck::Hold& h = said.holds[k];
         Constraint constraint{.held = h.axes, .displacement = {}};
         if (norm(h.displacement) > 0)
-            constraint.displacement = [to = h.displacement, ramp = h.ramp](const Vec3&, double time) { return smooth_rise(time, ramp) * to; };
+            constraint.displacement = [to = h.displacement, ramp = h.ramp](const Vec3&, double time) { return smooth_rise(ramp > 0 ? time / ramp : 1.0) * to; };
         solid.constraints.push_back(constraint);
         const std::string key = path + ".holds." + std::to_string(k);
         std::size_t count = 0;
@@ -100,6 +100,16 @@ void lay_fibres(const deck::SolidDeck& said, const std::string& path, Solid& sol
     }
 }
 
+RadialTool make_radial_tool(const deck::RadialToolDeck& said) {
+    const Vec3 way = said.to - said.from;
+    std::vector<double> radii;
+    for (const double d : said.diameters) radii.push_back(0.5 * d);
+    return {.kind = said.type == deck::RadialToolType::balloon ? RadialTool::Kind::balloon : RadialTool::Kind::crimper,
+            .axis = StentAxis(motion_along(way, 0.5 * (said.from + said.to))),
+            .length = norm(way),
+            .radius = smooth_radius(said.times, radii)};
+}
+
 /// Linear between, constant outside.
 std::function<double(double)> make_pressure(const deck::FacePressure& said) {
     return [times = said.times, values = said.pressures](double t) {
@@ -111,15 +121,28 @@ std::function<double(double)> make_pressure(const deck::FacePressure& said) {
     };
 }
 
+std::unique_ptr<SolidPart> make_stent(const deck::Case& config, const deck::SolidDeck& said, const std::string& path, SolidNumerics numerics) {
+    const deck::Stent& stent = *config.stent;
+    const StrutCurves curves = make_strut_curves(make_stent_pattern(stent));
+    const StentAxis axis = stent.placement ? make_stent_axis(*stent.placement, curves) : StentAxis();
+    numerics.spacing = said.spacing ? *said.spacing : stent.spacing.value_or(largest_stent_spacing(curves));
+    auto part = make_stent_part(said.name, curves, axis, make_solid_material(said.material, path + ".material"), numerics, said.mass_scaling);
+    for (Vec3& v : part->solid.particles.velocity) v = said.velocity;
+    return part;
+}
+
 std::unique_ptr<SolidPart> make_part(const deck::Case& config, std::size_t index) {
     const deck::SolidDeck& said = config.solids[index];
     const std::string path = "solids." + std::to_string(index);
     const SolidNumerics numerics = make_solid_numerics(config, said);
+    if (said.shape.type == deck::SolidShapeType::stent) return make_stent(config, said, path, numerics);
     const SolidFill fill = fill_shape(said.shape, numerics.spacing, numerics.planar);
     auto part = std::make_unique<SolidPart>();
     part->name = said.name;
     Solid& solid = part->solid;
+    part->mass_scaling = said.mass_scaling;
     solid.materials = {make_solid_material(said.material, path + ".material")};
+    solid.materials[0].density *= said.mass_scaling;
     place_particles(solid, fill.places, 0);
     for (std::size_t i = 0; i < solid.particles.size(); ++i) {
         solid.particles.volume[i] = fill.volumes[i];
@@ -150,6 +173,14 @@ std::size_t SolidScene::particle_count() const {
     return count;
 }
 
+static std::unique_ptr<Contact> make_contact(SolidScene& scene, const deck::ContactDeck& said, double step) {
+    SolidSurface& surface = *scene.part(said.solid).surface;
+    const ContactNumerics numerics{.friction = said.friction, .damping = said.damping, .step = step};
+    if (said.plane) return make_plane_contact(surface, said.plane->point, normalized(said.plane->normal), numerics);
+    if (said.tool) return make_tool_contact(surface, make_radial_tool(*said.tool), numerics);
+    return make_surface_contact(surface, *scene.part(*said.with).surface, numerics);
+}
+
 std::unique_ptr<SolidScene> build_solids(const deck::Case& config) {
     if (config.solids.empty()) throw DeckError("solids is missing: this deck has no solids to compute");
     auto scene = std::make_unique<SolidScene>();
@@ -158,24 +189,19 @@ std::unique_ptr<SolidScene> build_solids(const deck::Case& config) {
     scene->system.is_relaxed = config.numerics.solid.relaxation == deck::Relaxation::adaptive;
     for (std::size_t k = 0; k < config.solids.size(); ++k) scene->system.parts.push_back(make_part(config, k));
     const double step = stable_step(scene->system);
-    for (const deck::ContactDeck& said : config.contacts) {
-        SolidSurface& surface = *scene->part(said.solid).surface;
-        const ContactNumerics numerics{.friction = said.friction, .step = step};
-        scene->system.contacts.push_back(said.plane ? make_plane_contact(surface, said.plane->point, normalized(said.plane->normal), numerics)
-                                                    : make_surface_contact(surface, *scene->part(*said.with).surface, numerics));
-    }
+    for (const deck::ContactDeck& said : config.contacts) scene->system.contacts.push_back(make_contact(*scene, said, step));
     return scene;
 }
 
 void step_solids(SolidScene& scene, double until) {
     // A step is chosen every few, for a change of the stable one takes as long as a wave over as many spacings.
     constexpr int steps_between_choices = 8;
-    if (scene.steps % steps_between_choices == 0 || scene.dt == 0) scene.dt = stable_step(scene.system);
+    if (scene.steps % steps_between_choices < strides_in_step(scene.system)) scene.dt = choose_strides(scene.system);
     const double left = until - scene.time;
     const double dt = left / std::ceil(left / scene.dt * (1 - 1e-12));
     solid_step(scene.system, scene.time, dt);
     scene.time = dt == left ? until : scene.time + dt;
-    ++scene.steps;
+    scene.steps += strides_in_step(scene.system);
 }
 
 }   // namespace patency

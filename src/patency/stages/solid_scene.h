@@ -14,8 +14,8 @@ struct SolidScene {
     deck::Case config;
     SolidSystem system;
     double time = 0;            ///< [s]
-    double dt = 0;              ///< [s] of the next steps
-    std::int64_t steps = 0;
+    double dt = 0;              ///< [s] that the next steps may take
+    std::int64_t steps = 0;     ///< of the fastest part
 
     const SolidPart& part(const std::string& name) const;   ///< @throws DeckError if there is none
     SolidPart& part(const std::string& name);
@@ -25,7 +25,7 @@ struct SolidScene {
 /// Particles, materials, constraints and loads of a deck's solids. Throws DeckError, GeometryError.
 std::unique_ptr<SolidScene> build_solids(const deck::Case& config);
 
-/// One step, no further than `until` [s]; steps before it are of even length. Throws DivergedError.
+/// One step (of the slowest part), no further than `until` [s]; steps before it are of even length. Throws DivergedError.
 void step_solids(SolidScene& scene, double until);
 
 }   // namespace patency

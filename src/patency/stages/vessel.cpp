@@ -24,9 +24,9 @@ Vessel check_vessel(Surface surface, std::string_view inlet) {
     return vessel;
 }
 
-Vessel check_vessel(const Network& network, std::string_view inlet) {
+Vessel check_vessel(const Network& network, std::string_view inlet, double resolution) {
     const std::vector<Opening> named = openings_of(network, 0);   // in the order of their face ids, from 2 on
-    Vessel vessel = check_vessel(make_network_surface(network, 0.5 * narrowest_diameter(network)));
+    Vessel vessel = check_vessel(make_network_surface(network, resolution > 0 ? resolution : 0.5 * narrowest_diameter(network)));
     for (SurfaceOpening& o : vessel.openings)
         if (o.face_id) o.opening.name = named.at(std::size_t(*o.face_id) - 2).name;
     std::stable_partition(vessel.openings.begin(), vessel.openings.end(),
@@ -120,7 +120,7 @@ Vessel open_vessel(const deck::Case& config) {
     return vessel;
 }
 
-Vessel read_vessel(const deck::Case& config) {
+Vessel read_vessel(const deck::Case& config, double network_resolution) {
     const deck::Geometry& g = config.geometry;
     if (!g.surface && !g.network)
         throw DeckError("geometry: a surface or a network is needed; a shape has no branches to follow");
@@ -131,7 +131,7 @@ Vessel read_vessel(const deck::Case& config) {
         return vessel;
     }
     const Network network = read_network_of(config);
-    Vessel vessel = check_vessel(network);
+    Vessel vessel = check_vessel(network, {}, network_resolution);
     follow_vessel(vessel);
     expect_usable(vessel, g);
     std::vector<NamedCurve> curves;

@@ -46,8 +46,8 @@ struct Vessel {
 
 /// Diagnosed, repaired, its openings found; `inlet` (a name or a number, or empty) tells which is the inlet.
 Vessel check_vessel(Surface surface, std::string_view inlet = {});
-/// The surface of a network, its openings named as the network's.
-Vessel check_vessel(const Network& network, std::string_view inlet = {});
+/// The surface of a network, its openings named as the network's; triangles of about `resolution` [m], half its narrowest diameter if 0.
+Vessel check_vessel(const Network& network, std::string_view inlet = {}, double resolution = 0);
 
 /// Adds the centrelines and what follows from them; where there are none, why, as one more refused finding. Does nothing
 /// where something is refused already.
@@ -58,7 +58,7 @@ void follow_vessel(Vessel& vessel);
 Vessel open_vessel(const deck::Case& config);
 
 /// The vessel of a deck's surface or network, followed. Throws GeometryError with all refusals; FileError; DeckError for a deck with
-/// neither.
-Vessel read_vessel(const deck::Case& config);
+/// neither. A network's surface has triangles of `network_resolution` [m] (check_vessel).
+Vessel read_vessel(const deck::Case& config, double network_resolution = 0);
 
 }   // namespace patency

@@ -88,5 +88,6 @@ std::vector<VerifyCase> vessel_cell_cases(); // cells_bifurcation, cells_left_co
 std::vector<VerifyCase> solid_point_cases(); // material_points, patch
 std::vector<VerifyCase> solid_cases();       // beam, thick_tube, plastic_tube, taylor_bar
 std::vector<VerifyCase> contact_cases();     // incline, two_rings, three_rings
+std::vector<VerifyCase> stent_cases();       // plastic_ring, stent_ring, stent_free
 
 }  // namespace patency

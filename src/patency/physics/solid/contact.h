@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a point that has gone into a surface feels: a push out of it in proportion to the depth, and Coulomb's friction with
-// a stick that is a spring.                                                               THEORY (21.6) to (21.8)
+// What a point that has gone into a surface feels: a push out of it in proportion to the depth, damped, and Coulomb's
+// friction with a stick that is a spring.                                                 THEORY (21.6) to (21.10)
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "patency/base/vec.h"
 
@@ -12,6 +15,19 @@ inline constexpr double penalty_share = 0.1;
 
 /// Stiffness [N/m] for the joint mass m* [kg] of what touches, and the step dt [s] it is to be stable for.  THEORY (21.6)
 inline double penalty_stiffness(double mass, double dt) { return penalty_share * mass / (dt * dt); }
+
+struct NormalPush {
+    double force = 0;    ///< >= 0 [N]
+    double damper = 0;   ///< the damper's part of it, which takes energy [N]
+};
+
+/// The spring of `stiffness` [N/m] and a damper of `ratio` of the critical damping, which never pull together; approach: how
+/// fast the depth [m] grows [m/s]; step [s]: that of the stiffness.                                        THEORY (21.9)
+inline NormalPush normal_push(double stiffness, double depth, double approach, double ratio, double step) {
+    const double spring = stiffness * depth, damper = 2 * ratio * stiffness * step / std::sqrt(penalty_share);
+    const double force = std::max(0.0, spring + damper * approach);
+    return {force, force - spring};
+}
 
 struct FrictionState {
     Vec3 force;        ///< on the point, along the surface [N]

@@ -87,7 +87,6 @@ struct J2Plastic {
         return y / (y + 3 * elastic.shear * strain);
     }
 
-private:
     /// x > 0 with trial - 3 G x = yield stress at (a + x). The difference falls with x and is convex, so Newton from the
     /// left never steps too far.
     double plastic_increment(double trial, double a) const {

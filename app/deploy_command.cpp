@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency deploy: the stent alone.
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+
+#include "commands.h"
+#include "deck_options.h"
+#include "flow_runner.h"
+#include "patency/base/text.h"
+#include "patency/io/hash.h"
+#include "patency/stages/deploy.h"
+
+namespace patency::app {
+
+namespace {
+
+volatile std::sig_atomic_t caught_signal = 0;
+void note_signal(int signal) {
+    caught_signal = signal;
+    std::signal(signal, SIG_DFL);   // a second one ends the program at once
+}
+
+struct DeployOptions {
+    DeckOptions deck;
+    std::string out, mode;
+    bool fresh = false;
+};
+
+/// The deck, with the mode of the command line over it.
+deck::Case read(const DeployOptions& options) {
+    deck::Case config = options.deck.read();
+    if (options.mode.empty()) return config;
+    const deck::Words known = words(deck::DeploymentMode{});
+    const auto found = std::find(known.begin(), known.end(), options.mode);
+    if (found == known.end()) {
+        const std::vector<std::string> names(known.begin(), known.end());
+        throw UsageError(fmt::format("--mode {}: is none of {}", double_quoted(shortened(options.mode)), join(names, ", ", " and ")));
+    }
+    config.deployment.mode = deck::DeploymentMode(found - known.begin());
+    return config;
+}
+
+ExitCode run(const DeployOptions& options) {
+    const deck::Case config = read(options);
+    const int threads = options.deck.apply_threads(config);
+    const OutputFolder folder(options.out);
+    const bool goes_on = !options.fresh && folder.has_checkpoint("deploy");
+    if (!goes_on) folder.clear();
+    const Log log = make_run_log(folder, goes_on);
+    log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
+    std::signal(SIGINT, note_signal);
+    std::signal(SIGTERM, note_signal);
+    const auto print = [](std::string_view text) {
+        fmt::print(stderr, "{}", text);
+        std::fflush(stderr);
+    };
+    Progress progress = isatty(STDERR_FILENO) ? Progress(print, {.style = ProgressStyle::terminal, .interval = 0.2, .width = 0, .clock = {}}) : Progress(print);
+    try {
+        if (run_deploy(config, {.folder = folder, .binary_hash = hex_text(hash_file("/proc/self/exe")), .interrupted = [] { return caught_signal != 0; }, .log = log,
+                                .progress = &progress}))
+            return ExitCode::ok;
+    } catch (const Error& error) {
+        log(LogLevel::error, error.what());
+        throw;
+    }
+    return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+}
+
+}   // namespace
+
+void add_deploy_command(CLI::App& program, ExitCode& exit_code) {
+    CLI::App* command = program.add_subcommand("deploy", "implant the deck's stent: crimp it, open it in the vessel, let go");
+    const auto options = std::make_shared<DeployOptions>();
+    options->deck.add_to(*command);
+    command->add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")->required();
+    command->add_option("--mode", options->mode, "balloon, radial_load, or geometric: a quick change of shape without mechanics; instead of the deck's");
+    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}   // namespace patency::app

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/deploy_mechanical.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "patency/base/errors.h"
+#include "patency/bodies/radial_tool.h"
+#include "patency/bodies/stent_skin.h"
+#include "patency/bodies/tether.h"
+#include "patency/config/deck.h"
+#include "patency/io/csv.h"
+#include "patency/io/pvd.h"
+#include "patency/io/summary.h"
+#include "patency/shape/exact_distance.h"
+#include "patency/stages/deploy_program.h"
+#include "patency/stages/deploy_results.h"
+#include "patency/stages/deploy_state.h"
+#include "patency/stages/lumen_after.h"
+#include "patency/stages/stopwatch.h"
+
+namespace patency {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int looks = 400;   // rows of deployment.csv
+
+/// The struts' own pressure: rises until the stent is as wide as wanted, then falls to nothing.
+struct RadialLoad {
+    double from, ramp, most;
+    double stopped = INFINITY, reached = 0;   // when, and at what pressure
+
+    double pressure(double time) const {
+        if (time <= from) return 0;
+        if (time < stopped) return most * std::min(1.0, (time - from) / ramp);
+        return reached * std::max(0.0, 1 - (time - stopped) / (0.2 * ramp));
+    }
+};
+
+/// What is known after the phase in which it is measured.
+struct Marks {
+    double crimped_length = 0, crimped_diameter = 0;     // before it opens [m]
+    double opened_diameter = 0, opened_length = 0;       // before it is let go [m]
+    double stent_ratio = 0, wall_ratio = 0;              // the largest kinetic over internal while it opens, after the first tenth
+    double balloon_pressure = 0;                         // the largest [Pa]
+    double deepest = 0;                                  // of stent in wall [m]
+};
+
+class Deployment {
+public:
+    Deployment(const deck::Case& config, const DeployStage& stage)
+        : config_(config), stage_(stage), stent_series_(stage.folder.file("stent.pvd")), wall_series_(stage.folder.file("wall.pvd")),
+          table_(stage.folder.file("deployment.csv"),
+                 {"time_s", "phase", "tool_radius_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm", "length_mm", "tool_pressure_pa",
+                  "stent_kinetic_j", "stent_internal_j", "stent_plastic_j", "wall_kinetic_j", "wall_internal_j", "penetration_mm"}) {
+        deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+        scene_ = build_deployment(config);
+        program_ = make_deploy_program(scene_->place, config.deployment);
+        stent_ = scene_->stent.get(), wall_ = scene_->wall.get();
+        tell_plan();
+    }
+
+    bool run() {
+        for (const DeployProgram::Entry& entry : program_.phases) {
+            begin(entry.phase);
+            if (!advance(entry)) return false;
+            end(entry.phase);
+        }
+        finish();
+        return true;
+    }
+
+private:
+    void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
+    SolidSystem& system() { return scene_->solids.system; }
+    double time() const { return scene_->solids.time; }
+
+    void tell_plan() {
+        const StentPlace& place = scene_->place;
+        say(fmt::format("stent: {:.4g} x {:.4g} mm along {:.4g} to {:.4g} mm from the inlet; crimped to {:.4g}, opened to {:.4g} mm; the lumen there is {:.3g} mm at its narrowest, "
+                        "{:.3g} mm where healthy",
+                        1e3 * place.pattern.diameter, 1e3 * place.pattern.length, 1e3 * place.start_arc(), 1e3 * place.end_arc(), 1e3 * place.crimped_diameter,
+                        1e3 * place.diameter, 1e3 * place.narrowest, 1e3 * place.reference_diameter));
+        say(fmt::format("stent: {} particles {:.3g} um apart, {} vertices, mass times {:.4g}; wall: {} particles {:.3g} mm apart, {} vertices; {} ends", stent_->body->particles().size(),
+                        1e6 * scene_->stent_spacing, stent_->surface->size(), scene_->mass_scaling, wall_->body->particles().size(), 1e3 * scene_->wall_spacing,
+                        wall_->surface->size(), scene_->field->ends().size()));
+        say(fmt::format("stable steps: stent {:.3g} s, wall {:.3g} s; {:.3g} s in all", stent_->body->stable_step(), wall_->body->stable_step(), program_.end()));
+    }
+
+    bool has_wall() const { return scene_->wall == nullptr; }
+
+    /// Whatever touches in a phase.
+    void begin(DeployPhase phase) {
+        SolidSystem& solids = system();
+        if (scene_->stent) solids.parts.push_back(std::move(scene_->stent));
+        const bool needs_wall = phase != DeployPhase::crimp && phase != DeployPhase::release;
+        if (scene_->wall && (needs_wall || program_.predilation)) solids.parts.push_back(std::move(scene_->wall));
+        solids.is_relaxed = true;   // what is driven slowly is to be near rest at every moment
+        const double step = stable_step(solids);
+        const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
+            return make_tool_contact(surface, {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
+                                     {.friction = config_.deployment.balloon_friction, .step = step});
+        };
+        phase_ = phase;
+        if (phase == DeployPhase::crimp) {
+            crimper_ = add(tool(*stent_->surface, RadialTool::Kind::crimper, program_.crimper));
+            add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));   // folded: what it is crimped onto
+        } else if (needs_wall && !stent_on_wall_) {
+            solids.contacts.clear();
+            crimper_ = predilator_ = nullptr;
+            if (config_.deployment.tethering > 0) add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
+            stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface, {.friction = config_.deployment.friction, .step = step}));
+        }
+        if (program_.predilation && !predilator_ && phase <= DeployPhase::enter)
+            predilator_ = add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.predilation));
+        if (phase == DeployPhase::open) open(tool);
+    }
+
+    template <class Tool>
+    void open(const Tool& tool) {
+        if (predilator_) system().contacts.pop_back(), predilator_ = nullptr;
+        if (config_.deployment.mode == deck::DeploymentMode::balloon) {
+            balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
+            add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon));
+            return;
+        }
+        load_ = std::make_shared<RadialLoad>(RadialLoad{.from = program_.open_from, .ramp = config_.deployment.ramp, .most = config_.deployment.load});
+        stent_->pressures.push_back({stent_inner, [load = load_](double t) { return load->pressure(t); }});
+    }
+
+    Contact* add(std::unique_ptr<Contact> contact) {
+        system().contacts.push_back(std::move(contact));
+        return system().contacts.back().get();
+    }
+
+    bool advance(const DeployProgram::Entry& entry) {
+        const double row = program_.end() / looks;
+        if (rows_ == 0) look(row);
+        while (time() < entry.end) {
+            const double next = std::min(entry.end, row * (std::floor(time() / row * (1 + 1e-9)) + 1));
+            while (time() < next) {
+                step_solids(scene_->solids, next);
+                if (stage_.interrupted && stage_.interrupted()) {
+                    say(fmt::format("interrupted at {:.6g} s", time()));
+                    return false;
+                }
+            }
+            look(row);
+            if (stage_.progress)
+                stage_.progress->update({.stage = std::string(name_of(entry.phase)), .fraction = time() / program_.end(), .time = time(), .step = scene_->solids.steps});
+            if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY && profile_.mean_diameter >= scene_->place.diameter) stop_load();
+        }
+        return true;
+    }
+
+    void stop_load() {
+        load_->reached = load_->pressure(time());
+        load_->stopped = time();
+        marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
+        say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load_->reached, 1e3 * profile_.mean_diameter));
+    }
+
+    double tool_radius() const {
+        if (phase_ <= DeployPhase::release) return program_.crimper(time());
+        if (phase_ == DeployPhase::enter) return program_.predilation(time());
+        return balloon_ ? program_.balloon(time()) : 0;
+    }
+
+    /// A row of the table, now and then a picture.
+    void look(double row) {
+        ++rows_;
+        profile_ = measure_stent_profile(seen_from(scene_->place.axis, outer_faces_of(*stent_).places), slices_for(scene_->place.pattern));
+        const BodyEnergy stent = energy_of(*stent_), wall = has_wall() ? energy_of(*wall_) : BodyEnergy{};
+        Contact* tool = phase_ <= DeployPhase::release ? crimper_ : balloon_;
+        const double pressure = tool ? tool->report().pressure : load_ ? load_->pressure(time()) : 0;
+        if (stent_on_wall_) marks_.deepest = std::max(marks_.deepest, stent_on_wall_->report().deepest);
+        if (phase_ == DeployPhase::open) {
+            marks_.balloon_pressure = std::max(marks_.balloon_pressure, pressure);
+            if (time() > program_.open_from + 0.1 * config_.deployment.ramp && !(load_ && load_->stopped < INFINITY))
+                marks_.stent_ratio = std::max(marks_.stent_ratio, stent.ratio()), marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
+        }
+        table_.write_row({time(), double(phase_), 1e3 * tool_radius(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter,
+                          1e3 * profile_.length, pressure, stent.kinetic, stent.internal, stent.plastic, wall.kinetic, wall.internal, 1e3 * marks_.deepest});
+        const double frame = program_.end() / config_.deployment.frames;
+        if (stent_series_.size() == 0 || time() >= frame * double(stent_series_.size()) - 0.5 * row) write_frames(nullptr);
+    }
+
+    void write_frames(const SignedDistance* lumen) {
+        const auto write = [&](PvdWriter& series, const PolyData& data, const char* name) {
+            const auto file = frame_file(name, series.size());
+            write_polydata(stage_.folder.root() / file, data, {.time = time()});
+            series.add(time(), file);
+        };
+        write(stent_series_, stent_picture(*stent_, lumen), "stent");
+        write(wall_series_, wall_picture(*wall_), "wall");
+    }
+
+    void end(DeployPhase phase) {
+        say(fmt::format("{} done at {:.4g} ms: diameter {:.4g} mm ({:.4g} to {:.4g}), length {:.4g} mm; {} steps, {:.0f} s", name_of(phase), 1e3 * time(),
+                        1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter, 1e3 * profile_.length, scene_->solids.steps, watch_.wall()));
+        if (phase <= DeployPhase::enter || marks_.crimped_length == 0) {
+            if (phase != DeployPhase::open) marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
+        }
+        if (phase == DeployPhase::hold && marks_.opened_diameter == 0) marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
+        if (phase == DeployPhase::open && load_ && load_->stopped == INFINITY) {
+            stage_.log(LogLevel::warning, "the load did not open the stent to the wanted diameter");
+            stop_load();
+        }
+    }
+
+    void finish() {
+        Vessel after = write_lumen_after(config_, scene_->vessel, scene_->lumen_now(wall_->body->particles()), stage_.folder);
+        follow_vessel(after);
+        const SignedDistance lumen = make_exact_distance(closed_at(after.checked.surface, after.checked.ends));
+        write_frames(&lumen);
+        const OuterFaces outer = outer_faces_of(*stent_);
+        const StentAxis& axis = scene_->place.axis;
+        const StrutFit fit = measure_fit(outer.places, outer.areas, axis, lumen);
+        write_stent_table(stage_.folder.file("stent.csv"), profile_);
+        const LumenGain gain = lumen_gain(scene_->place, *scene_->vessel.along, after);
+
+        Json deploy = {{"mode", std::string(deck::word_of(config_.deployment.mode))}, {"is_mechanical", true}};
+        deploy.update(deploy_summary(scene_->place, profile_, fit, find_jailed_ostia(profile_, axis, lumen), gain));
+        deploy["crimped_diameter_mm"] = 1e3 * marks_.crimped_diameter;
+        deploy["crimped_length_mm"] = 1e3 * marks_.crimped_length;
+        deploy["opened_diameter_mm"] = 1e3 * marks_.opened_diameter;
+        deploy["recoil_percent"] = 100 * recoil(marks_.opened_diameter, profile_.mean_diameter);
+        deploy["foreshortening_percent"] = 100 * foreshortening(marks_.crimped_length, profile_.length);
+        deploy["penetration_over_spacing"] = marks_.deepest / scene_->stent_spacing;
+        deploy["kinetic_to_internal"] = std::max(marks_.stent_ratio, marks_.wall_ratio);
+        deploy["kinetic_to_internal_stent"] = marks_.stent_ratio;
+        deploy["kinetic_to_internal_wall"] = marks_.wall_ratio;
+        deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
+        deploy["largest_tool_pressure_pa"] = marks_.balloon_pressure;
+        deploy["stresses"] = stresses_json(*stent_, *wall_, axis, profile_.length, stent_on_wall_->pushes());
+        deploy["particles"] = {{"stent", stent_->body->particles().size()}, {"wall", wall_->body->particles().size()}};
+        deploy["spacing_mm"] = {{"stent", 1e3 * scene_->stent_spacing}, {"wall", 1e3 * scene_->wall_spacing}};
+        deploy["mass_scaling"] = scene_->mass_scaling;
+        deploy["steps"] = scene_->solids.steps;
+        write_summary(stage_.folder.file("summary.json"), {{"deploy", deploy}});
+        const double particle_steps = double(scene_->solids.steps) * double(stent_->body->particles().size());
+        write_summary(stage_.folder.file("timing.json"), {{"machine", machine_name()}, {"threads", omp_get_max_threads()},
+                                                          {"deploy", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}, {"stent_particle_steps_per_s", particle_steps / watch_.wall()}}}});
+        if (stage_.progress) stage_.progress->finish({.stage = "deploy", .fraction = 1, .time = time(), .step = scene_->solids.steps});
+        say(fmt::format("done: stent {:.4g} mm, recoil {:.2f} %, lumen {:.3g} mm at its narrowest (before {:.3g}), residual stenosis {:.1f} %; {} steps in {:.0f} s",
+                        1e3 * profile_.mean_diameter, 100 * recoil(marks_.opened_diameter, profile_.mean_diameter), 1e3 * gain.narrowest_after, 1e3 * gain.narrowest_before,
+                        100 * gain.residual_stenosis(), scene_->solids.steps, watch_.wall()));
+    }
+
+    const deck::Case& config_;
+    DeployStage stage_;
+    Stopwatch watch_;
+    std::unique_ptr<DeployScene> scene_;
+    DeployProgram program_;
+    SolidPart *stent_ = nullptr, *wall_ = nullptr;   // wherever they are
+    Contact *crimper_ = nullptr, *predilator_ = nullptr, *stent_on_wall_ = nullptr, *balloon_ = nullptr;
+    std::shared_ptr<RadialLoad> load_;
+    DeployPhase phase_ = DeployPhase::crimp;
+    StentProfile profile_;
+    Marks marks_;
+    PvdWriter stent_series_, wall_series_;
+    CsvWriter table_;
+    std::size_t rows_ = 0;
+};
+
+}   // namespace
+
+bool deploy_by_contact(const deck::Case& config, const DeployStage& stage) { return Deployment(config, stage).run(); }
+
+}   // namespace patency

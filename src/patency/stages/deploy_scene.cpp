@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/deploy_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/bodies/stent.h"
+#include "patency/shape/exact_distance.h"
+#include "patency/shape/surface_refine.h"
+#include "patency/stages/solid_material.h"
+#include "patency/stages/stent_part.h"
+
+namespace patency {
+
+namespace {
+
+constexpr double usual_wall_spacing = 0.2e-3;   // m
+constexpr double particles_through = 4;         // the wall, where nothing is said
+constexpr double carrying = 3;                  // spacings that the wall's surfaces look for particles: at the edge of a cut a kernel's support has too few
+
+SolidNumerics numerics_of(const deck::Case& config, double spacing) {
+    const deck::SolidSettings& s = config.numerics.solid;
+    return {.spacing = spacing,
+            .smoothing_ratio = s.smoothing_ratio,
+            .cfl = s.cfl,
+            .hourglass = s.hourglass,
+            .viscosity = s.viscosity,
+            .precision = config.numerics.precision == deck::Precision::mixed ? Precision::mixed : Precision::double_precision};
+}
+
+WallField field_around(const deck::Case& config, const Vessel& vessel, const StentPlace& place) {
+    const VesselAlong& along = vessel.along.value();
+    std::vector<Vec3> normals;
+    for (const SurfaceOpening& o : vessel.openings) normals.push_back(o.opening.normal);
+    return {along.lines, along.assessment.healthy_diameter, normals, make_exact_distance(closed_at(vessel.checked.surface, vessel.checked.ends)),
+            {.thickness = config.wall.thickness,
+             .is_filled = config.wall.plaque == deck::Plaque::fills,
+             .line = place.line,
+             .from = place.start_arc(),
+             .to = place.end_arc(),
+             .reach = config.deployment.region * place.pattern.length}};
+}
+
+/// In the order of WallLayer.
+std::vector<SolidMaterial> wall_materials(const deck::Wall& wall) {
+    deck::SolidMaterialChoice usual;
+    usual.name = wall.law;
+    const auto make = [&](const std::optional<deck::SolidMaterialChoice>& said, const std::string& layer) {
+        return said ? make_solid_material(*said, "wall.layers." + layer) : make_solid_material(usual, "wall.law");
+    };
+    return {make(wall.layers.plaque, "plaque"), make(wall.layers.media, "media"), make(wall.layers.adventitia, "adventitia")};
+}
+
+std::unique_ptr<SolidPart> make_wall_part(const DeployScene& scene) {
+    const VesselWall wall = make_vessel_wall(*scene.field, scene.wall_spacing, scene.config.wall.layers.adventitia_share);
+    auto part = std::make_unique<SolidPart>();
+    part->name = "wall";
+    Solid& solid = part->solid;
+    solid.materials = wall_materials(scene.config.wall);
+    solid.constraints.push_back({});   // the ends stay
+    place_particles(solid, wall.places, wall.volume);
+    SolidParticles& p = solid.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        p.material[i] = std::int32_t(wall.layer[i]);
+        p.mass[i] = wall.volume * solid.materials[std::size_t(wall.layer[i])].density;
+        p.constraint[i] = wall.is_at_end[i] ? 1 : 0;
+    }
+    const SolidNumerics numerics = numerics_of(scene.config, scene.wall_spacing);
+    part->body = make_solid_body(solid, numerics);
+    part->surface = std::make_unique<SolidSurface>(wall.surface, solid.particles, carrying * scene.wall_spacing, false);
+    return part;
+}
+
+SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& pattern) {
+    if (stent.material) return make_solid_material(*stent.material, "stent.material");
+    deck::SolidMaterialChoice alloy;
+    alloy.name = pattern.alloy;
+    return make_solid_material(alloy, "stent.alloy");
+}
+
+/// How much heavier the stent must be to need no more steps in the ramp than wanted: its stable step grows with the root.
+double scaling_for(const deck::Deployment& deployment, const SolidMaterial& material, const SolidNumerics& numerics) {
+    if (deployment.mass_scaling) return *deployment.mass_scaling;
+    const double step = numerics.cfl * numerics.kernel().h / ((1 + numerics.viscosity) * material.moduli().p_wave_speed(material.density));
+    const double wanted = deployment.ramp / deployment.steps;
+    return std::max(1.0, (wanted / step) * (wanted / step));
+}
+
+void carry_lumen(DeployScene& scene) {
+    scene.lumen = scene.vessel.checked.surface;
+    const double size = 0.5 * scene.wall_spacing;
+    const Bounds box = scene.field->bounds();
+    refine_surface(scene.lumen, [&](const Vec3& x) {
+        const Vec3 out = {std::max({0.0, box.low.x - x.x, x.x - box.high.x}), std::max({0.0, box.low.y - x.y, x.y - box.high.y}),
+                          std::max({0.0, box.low.z - x.z, x.z - box.high.z})};
+        const double past = norm(out) > 0 ? norm(out) : std::max(0.0, scene.field->at(x).region);
+        return size + 0.5 * past;
+    });
+    SurfaceElements mesh;
+    for (std::uint32_t k = 0; k < scene.lumen.points.size(); ++k) {
+        const Vec3& x = scene.lumen.points[k];
+        const bool is_in_box = x.x > box.low.x && x.x < box.high.x && x.y > box.low.y && x.y < box.high.y && x.z > box.low.z && x.z < box.high.z;
+        if (!is_in_box || scene.field->at(x).region > -0.5 * scene.wall_spacing) continue;
+        scene.carried_points.push_back(k);
+        mesh.vertices.push_back(x);
+    }
+    scene.carrier = std::make_unique<SolidSurface>(mesh, scene.wall->body->particles(), carrying * scene.wall_spacing, false);
+}
+
+}   // namespace
+
+Surface DeployScene::lumen_now(const SolidParticles& wall_particles) {
+    carrier->follow(wall_particles);
+    Surface now = lumen;
+    for (std::size_t k = 0; k < carried_points.size(); ++k) now.points[carried_points[k]] = carrier->position[k];
+    return now;
+}
+
+std::unique_ptr<DeployScene> build_deployment(const deck::Case& config) {
+    auto scene = std::make_unique<DeployScene>();
+    scene->config = config;
+    scene->solids.config = config;
+    scene->vessel = read_vessel(config, config.wall.spacing.value_or(usual_wall_spacing));
+    scene->place = place_stent(config, scene->vessel);
+    scene->curves = make_strut_curves(scene->place.pattern);
+    scene->field = field_around(config, scene->vessel, scene->place);
+    scene->wall_spacing = config.wall.spacing.value_or(std::min(usual_wall_spacing, scene->field->thinnest() / particles_through));
+    scene->stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(scene->curves));
+
+    const SolidMaterial metal = stent_material(*config.stent, scene->place.pattern);
+    const SolidNumerics numerics = numerics_of(config, scene->stent_spacing);
+    scene->mass_scaling = scaling_for(config.deployment, metal, numerics);
+    scene->stent = make_stent_part("stent", scene->curves, scene->place.axis, metal, numerics, scene->mass_scaling);
+    scene->wall = make_wall_part(*scene);
+    carry_lumen(*scene);
+    return scene;
+}
+
+}   // namespace patency

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bodies of a deployment, before anything moves: the wall around the stent's place, the stent as it was cut, and the lumen's
+// surface, which the wall will carry.
+#pragma once
+
+#include <memory>
+
+#include "patency/bodies/vessel_wall.h"
+#include "patency/config/case.h"
+#include "patency/stages/solid_scene.h"
+#include "patency/stages/stent_placement.h"
+
+namespace patency {
+
+struct DeployScene {
+    deck::Case config;
+    Vessel vessel;
+    StentPlace place;
+    StrutCurves curves;                            ///< as cut
+    std::optional<WallField> field;
+    double wall_spacing = 0, stent_spacing = 0;    ///< [m]
+    double mass_scaling = 1;                       ///< of the stent
+    std::unique_ptr<SolidPart> wall, stent;        ///< until they are in `solids`; the wall's materials are its layers (WallLayer)
+    SolidScene solids;                             ///< what moves now
+    Surface lumen;                                 ///< the vessel's surface, fine where the wall carries it
+    std::vector<std::uint32_t> carried_points;     ///< of it
+    std::unique_ptr<SolidSurface> carrier;         ///< of these points, in their order
+
+    /// The vessel's surface where the wall is now.
+    Surface lumen_now(const SolidParticles& wall_particles);
+};
+
+/// Throws DeckError, GeometryError, FileError: everything that must be refused is refused here.
+std::unique_ptr<DeployScene> build_deployment(const deck::Case& config);
+
+}   // namespace patency

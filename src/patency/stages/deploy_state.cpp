@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/deploy_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "patency/bodies/stent_skin.h"
+#include "patency/bodies/vessel_wall.h"
+#include "patency/physics/solid/strain.h"
+
+namespace patency {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<double> von_mises_of(SolidPart& part) {
+    part.body->compute_deformation();
+    std::vector<double> stress(part.body->particles().size());
+    for (std::size_t i = 0; i < stress.size(); ++i) stress[i] = von_mises(part.body->cauchy(i));
+    return stress;
+}
+
+/// What both bodies' surfaces show.
+PolyData skin_of(SolidPart& part) {
+    SolidSurface& surface = *part.surface;
+    surface.follow(part.body->particles());
+    PolyData data;
+    data.points = surface.position;
+    data.triangles = surface.mesh().elements;
+    PointArray displacement{"displacement", "m", 3}, stress{"von_mises_stress", "Pa", 1, surface.carried(von_mises_of(part))};
+    for (std::size_t v = 0; v < surface.size(); ++v) {
+        const Vec3 u = surface.position[v] - surface.mesh().vertices[v];
+        displacement.values.insert(displacement.values.end(), {u.x, u.y, u.z});
+    }
+    for (double& s : stress.values) s = std::max(0.0, s);   // a linear fit may go below
+    data.arrays = {std::move(displacement), std::move(stress)};
+    return data;
+}
+
+Json percentiles(const std::vector<double>& values, const std::vector<double>& weights) {
+    return {{"p50", weighted_percentile(values, weights, 0.50)}, {"p95", weighted_percentile(values, weights, 0.95)}, {"p99", weighted_percentile(values, weights, 0.99)},
+            {"largest", values.empty() ? 0.0 : *std::max_element(values.begin(), values.end())}};
+}
+
+}   // namespace
+
+OuterFaces outer_faces_of(const SolidPart& stent) {
+    const SolidSurface& surface = *stent.surface;
+    const SurfaceElements& mesh = surface.mesh();
+    OuterFaces faces;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+        if (mesh.face[e] != stent_outer) continue;
+        const auto& [a, b, c] = mesh.elements[e];
+        const Vec3 &x = surface.position[a], &y = surface.position[b], &z = surface.position[c];
+        faces.places.push_back((x + y + z) / 3);
+        faces.areas.push_back(0.5 * norm(cross(y - x, z - x)));
+    }
+    return faces;
+}
+
+BodyEnergy energy_of(SolidPart& part) {
+    const SolidEnergy e = part.body->energy();
+    return {e.kinetic, e.internal(), e.plastic};
+}
+
+PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen) {
+    PolyData data = skin_of(stent);
+    const SolidParticles& p = stent.body->particles();
+    PointArray strain{"plastic_strain", "1", 1, stent.surface->carried({p.plastic_strain.begin(), p.plastic_strain.end()})};
+    for (double& s : strain.values) s = std::max(0.0, s);
+    data.arrays.push_back(std::move(strain));
+    if (lumen) {
+        PointArray gap{"gap", "m", 1, std::vector<double>(data.points.size())};
+        for (std::size_t v = 0; v < data.points.size(); ++v) gap.values[v] = -lumen->value(data.points[v]);
+        data.arrays.push_back(std::move(gap));
+    }
+    return data;
+}
+
+PolyData wall_picture(SolidPart& wall) { return skin_of(wall); }
+
+Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length, const std::vector<Contact::Push>& pushes) {
+    const std::vector<double> wall_stress = von_mises_of(wall);
+    const SolidParticles& w = wall.body->particles();
+    Json layers = Json::object();
+    for (const WallLayer layer : {WallLayer::plaque, WallLayer::media, WallLayer::adventitia}) {
+        std::vector<double> stress, volume;
+        for (std::size_t i = 0; i < w.size(); ++i)
+            if (w.material[i] == std::int32_t(layer) && std::abs(axis.coordinates(w.position[i]).along) < length / 2)
+                stress.push_back(wall_stress[i]), volume.push_back(w.volume[i]);
+        if (!stress.empty()) layers[std::string(name_of(layer))] = percentiles(stress, volume);
+    }
+    const SolidParticles& s = stent.body->particles();
+    const std::vector<double> volume(s.volume.begin(), s.volume.end());
+    std::vector<double> pressure, area;
+    for (const Contact::Push& push : pushes) {
+        const double a = stent.surface->area(push.vertex);
+        if (a > 0 && norm(push.force) > 0) pressure.push_back(norm(push.force) / a), area.push_back(a);
+    }
+    return {{"wall_von_mises_pa", layers},
+            {"stent_von_mises_pa", percentiles(von_mises_of(stent), volume)},
+            {"plastic_strain", percentiles({s.plastic_strain.begin(), s.plastic_strain.end()}, volume)},
+            {"contact_pressure_pa", percentiles(pressure, area)}};
+}
+
+}   // namespace patency

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/lumen_after.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/io/surface_file.h"
+
+namespace patency {
+
+namespace {
+
+/// Of the vessel's openings the one that is where this one was.
+std::size_t same_opening(const Opening& opening, const Vessel& vessel) {
+    const auto away = [&](const SurfaceOpening& o) { return norm(o.opening.centre - opening.centre); };
+    const auto found = std::min_element(vessel.openings.begin(), vessel.openings.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); });
+    if (found == vessel.openings.end() || away(*found) > 0.1 * opening.radius)
+        throw GeometryError(fmt::format("The lumen after the deployment has lost its opening {}: a stent so near to it cannot be implanted.", opening.name));
+    return std::size_t(found - vessel.openings.begin());
+}
+
+}   // namespace
+
+deck::Case case_after(const deck::Case& config, const Vessel& before, Vessel& vessel, const std::filesystem::path& surface) {
+    deck::Case after = config;
+    after.geometry = {};
+    after.geometry.surface = surface;
+    after.geometry.unit = "mm";
+    if (!vessel.checked.surface.space.empty()) after.geometry.space = vessel.checked.surface.space;
+    after.geometry.extensions = config.geometry.extensions;
+    after.stent.reset();
+    after.deployment = {};
+    if (const std::size_t inlet = same_opening(before.openings.front().opening, vessel); inlet > 0) {
+        after.geometry.inlet = vessel.openings[inlet].opening.name;
+        choose_inlet(vessel.openings, *after.geometry.inlet);
+    }
+    after.openings.clear();
+    for (const SurfaceOpening& o : before.openings)
+        if (const auto said = config.openings.find(o.opening.name); said != config.openings.end())
+            after.openings[vessel.openings[same_opening(o.opening, vessel)].opening.name] = said->second;
+    return after;
+}
+
+Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const Surface& after, const OutputFolder& folder) {
+    const auto path = std::filesystem::absolute(folder.file("lumen_after.vtp"));
+    write_surface(path, after);
+    write_stl(folder.file("lumen_after.stl"), after, config.geometry.unit.value_or("mm"));
+    Vessel vessel = check_vessel(after);
+    if (const std::string refused = refusals(vessel.checked.findings); !refused.empty())
+        throw GeometryError(fmt::format("The lumen after the deployment cannot be used; patency inspect {} shows where.\n{}", path.string(), refused));
+    deck::write_case(case_after(config, before, vessel, path), folder.file("case_after.yaml"));
+    return vessel;
+}
+
+}   // namespace patency

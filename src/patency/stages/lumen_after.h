@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lumen that a deployment leaves, as files that a flow begins with: the surface in the input's axes, and the deck for it.
+#pragma once
+
+#include "patency/config/case.h"
+#include "patency/io/output_folder.h"
+#include "patency/stages/vessel.h"
+
+namespace patency {
+
+/// Writes lumen_after.vtp (mm), lumen_after.stl (the input's unit) and case_after.yaml: the deck without its stent, its openings under the
+/// names that the new surface's have. Returns the new surface as a flow will see it, not followed. Throws GeometryError if it cannot be
+/// used (the files stand, so that it can be looked at), FileError.
+Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const Surface& after, const OutputFolder& folder);
+
+/// The deck for the lumen after, whose surface is `surface`; `vessel` is that surface, checked; its inlet is chosen here.
+deck::Case case_after(const deck::Case& config, const Vessel& before, Vessel& vessel, const std::filesystem::path& surface);
+
+}   // namespace patency

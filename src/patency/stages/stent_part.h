@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stent as a solid: particles in its struts, the metal, the surface that tools and the wall touch.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "patency/schemes/solid_step.h"
+#include "patency/shape/stent_axis.h"
+#include "patency/shape/stent_pattern.h"
+
+namespace patency {
+
+/// The stent as it was cut, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
+/// every strut (largest_stent_spacing); mass_scaling multiplies the material's density. Its surface has the faces outer,
+/// inner and side (stent_skin.h). Throws GeometryError: too coarse, or struts so near that particles would reach across the
+/// gap between them.
+std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StrutCurves& curves, const StentAxis& axis, const SolidMaterial& material,
+                                           const SolidNumerics& numerics, double mass_scaling = 1);
+
+/// The means of a stent, or of any tube around the axis, as it is now.
+struct StentShape {
+    double outer_diameter = 0;   ///< twice the mean distance of the outer face from the axis [m]
+    double least_diameter = 0, largest_diameter = 0;   ///< of its vertices
+    double length = 0;           ///< between its ends along the axis [m]
+    double end_diameter = 0, middle_diameter = 0;   ///< means over the outer eighths and the middle quarter of its length [m]
+};
+StentShape measure_stent_shape(const SolidPart& stent, const StentAxis& axis);
+
+}   // namespace patency

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stent as a solid: its mass, its faces, and that no particle sees another strut across a gap.
+#include "patency/stages/stent_part.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/bodies/stent.h"
+#include "patency/bodies/stent_skin.h"
+#include "patency/shape/stent_chart.h"
+#include "patency/shape/stent_metal.h"
+
+using namespace patency;
+
+namespace {
+
+constexpr double um = 1e-6, mm = 1e-3;
+
+StentPattern ring() {
+    return {.layout = StentLayout::rings, .rings = 1, .crowns = 6, .length = 1.075 * mm, .diameter = 2 * mm, .crimped_diameter = 1.2 * mm,
+            .nominal_diameter = 3.3 * mm, .strut_width = 100 * um, .strut_thickness = 100 * um, .crown_radius = 150 * um, .gap = 200 * um,
+            .connectors = 3, .edge_radius = 5 * um, .alloy = "316L"};
+}
+
+SolidMaterial steel() { return {8000, J2Plastic{elastic_moduli({.young = 193e9, .poisson = 0.3, .shear = {}, .bulk = {}}), {.yield = 172e6, .slope = 1e9, .saturation = 0, .rate = 0}}}; }
+
+SolidNumerics numerics(double spacing) {
+    SolidNumerics n;
+    n.spacing = spacing;
+    return n;
+}
+
+}   // namespace
+
+TEST(StentPart, HasTheMassOfItsMetalAndTheScaling) {
+    const StrutCurves curves = make_strut_curves(ring());
+    const auto part = make_stent_part("stent", curves, StentAxis(), steel(), numerics(25 * um), 50);
+    double mass = 0;
+    for (const double m : part->body->particles().mass) mass += m;
+    EXPECT_NEAR(mass, 50 * 8000 * measure_stent(curves).volume, 1e-9 * mass);
+    EXPECT_EQ(part->mass_scaling, 50);
+    const auto light = make_stent_part("stent", curves, StentAxis(), steel(), numerics(25 * um));
+    EXPECT_NEAR(part->body->stable_step(), std::sqrt(50.0) * light->body->stable_step(), 1e-9 * part->body->stable_step());
+}
+
+TEST(StentPart, ItsFacesAreClosedAndLookWhereTheyShould) {
+    const StrutCurves curves = make_strut_curves(ring());
+    const auto part = make_stent_part("stent", curves, StentAxis(), steel(), numerics(25 * um));
+    part->surface->follow(part->body->particles());
+    const SurfaceElements& mesh = part->surface->mesh();
+    Vec3 closed{};
+    double area[3] = {}, turned[3] = {}, volume = 0;   // and its part along the radius
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+        const auto& [a, b, c] = mesh.elements[e];
+        const Vec3 &p = part->surface->position[a], &q = part->surface->position[b], &r = part->surface->position[c];
+        const Vec3 A = 0.5 * cross(q - p, r - p), middle = (p + q + r) / 3.0;
+        closed += A, volume += dot(A, middle) / 3;
+        area[mesh.face[e]] += norm(A), turned[mesh.face[e]] += dot(A, normalized(Vec3{0, middle.y, middle.z}));
+    }
+    EXPECT_LT(norm(closed), 1e-12 * area[0]);
+    EXPECT_NEAR(volume, measure_stent(curves).volume, 0.01 * volume);
+    EXPECT_GT(turned[stent_outer], 0.99 * area[stent_outer]);
+    EXPECT_LT(turned[stent_inner], -0.99 * area[stent_inner]);
+    EXPECT_LT(std::abs(turned[stent_side]), 0.02 * area[stent_side]);
+    EXPECT_NEAR(area[stent_outer] / area[stent_inner], 1.0 / 0.9, 0.01) << "as the radii";
+}
+
+TEST(StentPart, MeasuresAreThoseOfItsPattern) {
+    const auto part = make_stent_part("stent", make_strut_curves(ring()), StentAxis(), steel(), numerics(25 * um));
+    part->surface->follow(part->body->particles());
+    const StentShape shape = measure_stent_shape(*part, StentAxis());
+    EXPECT_NEAR(shape.outer_diameter, 2 * mm, 0.002 * mm);
+    EXPECT_NEAR(shape.length, 1.075 * mm, 0.01 * mm);
+    EXPECT_NEAR(shape.least_diameter, shape.largest_diameter, 0.002 * mm);
+}
+
+TEST(StentPart, StrutsThatAreTooNearAreRefused) {
+    StentPattern narrow = ring();
+    narrow.crown_radius = 70 * um;   // 40 um between the struts of a crown
+    const StrutCurves curves = make_strut_curves(narrow);
+    EXPECT_THROW(make_stent_part("stent", curves, StentAxis(), steel(), numerics(25 * um)), GeometryError);
+    EXPECT_NO_THROW(make_stent_part("stent", curves, StentAxis(), steel(), numerics(16 * um)));
+}
