@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency deploy: the stent alone.
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <memory>
 
 #include "commands.h"
 #include "deck_options.h"
-#include "flow_runner.h"
+#include "stage_runner.h"
 #include "patency/base/text.h"
-#include "patency/io/hash.h"
-#include "patency/stages/deploy.h"
+#include "patency/report/page.h"
 
 namespace patency::app {
 
 namespace {
-
-volatile std::sig_atomic_t caught_signal = 0;
-void note_signal(int signal) {
-    caught_signal = signal;
-    std::signal(signal, SIG_DFL);   // a second one ends the program at once
-}
 
 struct DeployOptions {
     DeckOptions deck;
@@ -54,22 +44,9 @@ ExitCode run(const DeployOptions& options) {
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
-    std::signal(SIGINT, note_signal);
-    std::signal(SIGTERM, note_signal);
-    const auto print = [](std::string_view text) {
-        fmt::print(stderr, "{}", text);
-        std::fflush(stderr);
-    };
-    Progress progress = isatty(STDERR_FILENO) ? Progress(print, {.style = ProgressStyle::terminal, .interval = 0.2, .width = 0, .clock = {}}) : Progress(print);
-    try {
-        if (run_deploy(config, {.folder = folder, .binary_hash = hex_text(hash_file("/proc/self/exe")), .interrupted = [] { return caught_signal != 0; }, .log = log,
-                                .progress = &progress}))
-            return ExitCode::ok;
-    } catch (const Error& error) {
-        log(LogLevel::error, error.what());
-        throw;
-    }
-    return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+    const ExitCode code = run_deploy_stage(config, folder, log);
+    if (code == ExitCode::ok) log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
+    return code;
 }
 
 }   // namespace

@@ -7,7 +7,7 @@
 
 #include "commands.h"
 #include "deck_options.h"
-#include "flow_runner.h"
+#include "stage_runner.h"
 #include "patency/report/page.h"
 
 namespace patency::app {

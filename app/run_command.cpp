@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// patency run: everything that a deck asks for, one stage after the other: the estimate with its bands, then the flow. Each stage's
-// results are in a folder of its own in OUT, what they say together in OUT/summary.json.
+// patency run: everything that a deck asks for, one stage after the other: the flow, then with a stent its deployment and the flow
+// after, and the estimate with its bands. Each stage's results are in a folder of its own in OUT, what they say together in
+// OUT/summary.json and on the page.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "deck_options.h"
-#include "flow_runner.h"
+#include "stage_runner.h"
 #include "solid_runner.h"
+#include "patency/base/text.h"
+#include "patency/config/deck.h"
 #include "patency/io/summary.h"
 #include "patency/report/page.h"
 #include "patency/stages/estimate_results.h"
+#include "patency/stages/flow_checkpoint.h"
 
 namespace patency::app {
 
@@ -22,6 +30,7 @@ namespace {
 struct RunOptions {
     DeckOptions deck;
     std::string out;
+    std::vector<std::string> stages;
     bool fresh = false;
 };
 
@@ -38,35 +47,107 @@ Json estimate(const deck::Case& config, const Log& log) {
     return summary;
 }
 
+constexpr std::string_view all_stages[] = {"before", "deploy", "after"};
+
+/// The stages asked for, in their order; without a stent there is nothing to deploy and no after.
+std::vector<std::string> stages_of(const deck::Case& config, const std::vector<std::string>& asked) {
+    for (const std::string& name : asked)
+        if (std::find(std::begin(all_stages), std::end(all_stages), name) == std::end(all_stages))
+            throw UsageError(fmt::format("--stages: {} is none of before, deploy and after", double_quoted(shortened(name))));
+    std::vector<std::string> stages;
+    for (const std::string_view stage : all_stages) {
+        const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), stage) != asked.end();
+        if (is_asked && (stage == "before" || config.stent)) stages.emplace_back(stage);
+    }
+    if (stages.empty()) throw UsageError("--stages: the deck has no stent, so there is nothing to deploy and nothing after");
+    return stages;
+}
+
+/// One run of all stages, each in its folder; those that have ended are kept.
+class Run {
+public:
+    Run(const deck::Case& config, const OutputFolder& folder, const std::string& title, bool is_fresh) : config_(config), folder_(folder) {
+        const Json origin = origin_summary(origin_of(config, binary_hash()));
+        const std::filesystem::path known = folder.file("origin.json");
+        const bool goes_on = !is_fresh && std::filesystem::exists(known);
+        if (goes_on && read_summary(known) != origin)
+            throw CheckpointError(fmt::format("'{}' holds a run of another deck, other inputs or another version of the program; --fresh begins anew there", folder.root().string()));
+        if (!goes_on) {
+            for (const std::string_view stage : all_stages)
+                if (is_output_folder(folder.file(stage))) OutputFolder(folder.file(stage)).clear();
+            folder.clear();
+            write_summary(known, origin);
+        }
+        log_ = make_run_log(folder, goes_on);
+        say(title);
+    }
+
+    ExitCode go(const std::vector<std::string>& stages) {
+        for (const std::string& stage : stages) {
+            const OutputFolder here(folder_.file(stage));
+            if (std::filesystem::exists(here.file("summary.json"))) {
+                say(stage + ": done before");
+                continue;
+            }
+            if (stages.size() > 1 || stage != "before") say(fmt::format("--- {} ---", stage));
+            const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, log_) : run_flow_stage(stage == "after" ? deck_after() : config_, here, log_);
+            if (code != ExitCode::ok && code != ExitCode::bar_missed) return code;
+        }
+        return conclude();
+    }
+
+private:
+    void say(const std::string& line) const { log_(LogLevel::info, line); }
+
+    /// The flow after is that of the deck that the deployment wrote.
+    deck::Case deck_after() const {
+        const std::filesystem::path deck = folder_.file("deploy") / "case_after.yaml";
+        if (!std::filesystem::exists(deck)) throw UsageError("--stages: the flow after needs the deployment first");
+        return deck::read_case(deck);
+    }
+
+    /// All results in one summary and one page. A flow that did not settle is told by the exit code, whenever it was computed.
+    ExitCode conclude() const {
+        Json summary{{"name", config_.about.name}}, timing = Json::object();
+        summary["estimate"] = estimate(config_, log_);
+        ExitCode code = ExitCode::ok;
+        for (const std::string_view stage : all_stages) {
+            const std::filesystem::path results = folder_.file(stage) / "summary.json";
+            if (!std::filesystem::exists(results)) continue;
+            Json part = read_summary(results), times = read_summary(folder_.file(stage) / "timing.json");
+            if (stage == "deploy") part = Json(part["deploy"]), times = Json(times["deploy"]);
+            else if (part.contains("convergence") && !part["convergence"].value("is_converged", true)) code = ExitCode::bar_missed;
+            summary[std::string(stage)] = part;
+            timing[std::string(stage)] = times;
+        }
+        write_summary(folder_.file("summary.json"), summary);
+        write_summary(folder_.file("timing.json"), timing);
+        say(fmt::format("the page: {}", write_report(folder_.root(), PATENCY_VERSION).string()));
+        return code;
+    }
+
+    const deck::Case& config_;
+    const OutputFolder& folder_;
+    Log log_ = no_log;
+};
+
 ExitCode run(const RunOptions& options) {
     const deck::Case config = options.deck.read();
-    const int threads = options.deck.apply_threads(config);
+    const std::string title = fmt::format("{} on {} threads", options.deck.path, options.deck.apply_threads(config));
     const OutputFolder folder(options.out);
-    if (!config.solids.empty()) return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads));
-    const OutputFolder before(folder.file("before"));
-    const bool goes_on = !options.fresh && before.has_checkpoint("flow");
-    if (!goes_on) folder.clear(), before.clear();
-    const Log log = make_run_log(folder, goes_on);
-    log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
-
-    Json summary{{"name", config.about.name}};
-    summary["estimate"] = estimate(config, log);
-    const ExitCode code = run_flow_stage(config, before, log);
-    if (code != ExitCode::ok && code != ExitCode::bar_missed) return code;
-    summary["before"] = read_summary(before.file("summary.json"));
-    write_summary(folder.file("summary.json"), summary);
-    write_summary(folder.file("timing.json"), {{"before", read_summary(before.file("timing.json"))}});
-    log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
-    return code;
+    if (!config.solids.empty()) return run_solid_stage(config, folder, title);
+    const std::vector<std::string> stages = stages_of(config, options.stages);
+    return Run(config, folder, title, options.fresh).go(stages);
 }
 
 }   // namespace
 
 void add_run_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("run", "everything that the deck asks for: the estimate, then the flow; or solids");
+    CLI::App* command = program.add_subcommand("run", "everything that the deck asks for: the flow, with a stent its deployment and the flow after, and the page; or solids");
     const auto options = std::make_shared<RunOptions>();
     options->deck.add_to(*command);
     command->add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")->required();
+    command->add_option("--stages", options->stages, "only these of before, deploy and after; what ended earlier is kept")->delimiter(',');
     command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

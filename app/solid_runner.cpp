@@ -7,7 +7,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "flow_runner.h"
+#include "stage_runner.h"
 #include "patency/stages/run_solids.h"
 #include "patency/stages/solid_scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "flow_runner.h"
+#include "stage_runner.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,6 +13,7 @@
 #include "patency/io/hash.h"
 #include "patency/io/log_file.h"
 #include "patency/io/summary.h"
+#include "patency/stages/deploy.h"
 #include "patency/stages/run_flow.h"
 
 namespace patency::app {
@@ -44,25 +45,44 @@ Log make_run_log(const OutputFolder& folder, bool goes_on) {
     return make_tee_log(make_file_log(folder.file("log.txt"), goes_on ? LogMode::append : LogMode::begin), print_log);
 }
 
-ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
-    if (!config.solids.empty()) throw DeckError("this deck has solids and no blood; compute it by patency solid");
+std::string binary_hash() { return hex_text(hash_file("/proc/self/exe")); }
+
+namespace {
+
+/// job(progress) between signals; what throws is in the log.
+template <class Job>
+auto run_watched(const Log& log, Job job) {
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
     Progress progress = make_progress();
-    Outcome outcome = Outcome::interrupted;
     try {
-        outcome = run_flow(config, {.folder = folder,
-                                    .binary_hash = hex_text(hash_file("/proc/self/exe")),
-                                    .interrupted = [] { return caught_signal != 0; },
-                                    .log = log,
-                                    .progress = &progress});
+        return job(progress);
     } catch (const Error& error) {
         log(LogLevel::error, error.what());
         throw;
     }
-    if (outcome == Outcome::interrupted) return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+}
+
+bool is_interrupted() { return caught_signal != 0; }
+ExitCode interruption() { return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
+
+}   // namespace
+
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
+    if (!config.solids.empty()) throw DeckError("this deck has solids and no blood; compute it by patency solid");
+    const Outcome outcome = run_watched(log, [&](Progress& progress) {
+        return run_flow(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = is_interrupted, .log = log, .progress = &progress});
+    });
+    if (outcome == Outcome::interrupted) return interruption();
     fmt::print("{}", flow_table(read_summary(folder.file("summary.json"))));
     return outcome == Outcome::done ? ExitCode::ok : ExitCode::bar_missed;
+}
+
+ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
+    const bool is_done = run_watched(log, [&](Progress& progress) {
+        return run_deploy(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = is_interrupted, .log = log, .progress = &progress});
+    });
+    return is_done ? ExitCode::ok : interruption();
 }
 
 }   // namespace patency::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A flow stage as a person runs it: its log, its progress line, its signals, its table in the end.
+// A stage as a person runs it: its log, its progress line, its signals, a flow's table in the end.
 #pragma once
+
+#include <string>
 
 #include "patency/base/errors.h"
 #include "patency/base/log.h"
@@ -15,5 +17,11 @@ Log make_run_log(const OutputFolder& folder, bool goes_on);
 /// The flow of a case into a folder. SIGINT and SIGTERM end it with a checkpoint (130, 143); a flow that has not settled in its
 /// duration is 6. What throws is in the log.
 ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
+
+/// The deployment of a case's stent into a folder; signals and what throws as of a flow.
+ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
+
+/// Of the program that runs.
+std::string binary_hash();
 
 }   // namespace patency::app
