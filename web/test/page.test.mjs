@@ -259,6 +259,20 @@ describe("pages of other results", () => {
     assert.match(await page.locator("#glance").innerText(), /no longer narrows/);
   });
 
+  it("reads the FFR of a treated vessel where the lesion was", async () => {
+    const out = fixture.changed(run, "treated", (summary) => {
+      const { branch, throat_arc_mm, read_arc_mm } = summary.before.lesions[0];
+      summary.after.lesions = [];
+      summary.after.at_lesions = [{ branch, throat_arc_mm, read_arc_mm, flow_m3_per_s: 1.2e-6, drop_pa: 20.1, ffr: 0.9412 }];
+    });
+    const page = await browser.open(urlOf(out));
+    const glance = await page.locator("#glance").innerText();
+    assert.match(glance, /0\.99 → 0\.94/);
+    assert.match(glance, /at least 0\.90, the usual aim/);
+    assert.match(glance, /39\.6 → 8\.1 %/); // what the deployment left
+    assert.doesNotMatch(glance, /no longer narrows/);
+  });
+
   it("gives no FFR without an aortic pressure, and says why", async () => {
     const out = fixture.flow("flow", "gauge", "numerics.spacing=0.5 mm", "geometry.lesion.diameter_stenosis_percent=30");
     assert.ok(existsSync(join(out, "report.html")));

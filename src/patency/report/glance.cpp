@@ -21,6 +21,13 @@ Pointers with_key(const Focus& focus, const std::string& key) {
     return pointers;
 }
 
+/// The same; where the last flow has no such number of the lesion, the deployment's of the lumen.
+Pointers or_of_lumen(const Results& results, Pointers pointers, const std::string& key) {
+    const Figures figures(*results.summary);
+    if (pointers.size() > 1 && !(pointers.back() && figures.has(*pointers.back())) && figures.has("/deploy/lumen" + key)) pointers.back() = "/deploy/lumen" + key;
+    return pointers;
+}
+
 std::string card(const std::string& label, const std::string& figure, const std::string& more, const char* style = "") {
     return fmt::format("<article class=\"card {}\"><h3>{}</h3><p class=\"figure\">{}</p>{}</article>\n", style, label, figure, more);
 }
@@ -134,6 +141,8 @@ Focus focus_of(const Results& results) {
     for (std::size_t k = 0; k < results.flows.size(); ++k)
         if (const auto found = find_lesion(results.part(results.flows[k]), first["lesions"][*worst]))
             focus.in_flow[k] = results.flows[k].path + "/lesions" + step(*found);
+        else if (const Json& part = results.part(results.flows[k]); part.contains("at_lesions") && *worst < part["at_lesions"].size())
+            focus.in_flow[k] = results.flows[k].path + "/at_lesions" + step(*worst);   // the lesion is gone; this is where it was
     focus.lesion = *focus.in_flow.front();
     return focus;
 }
@@ -153,11 +162,11 @@ std::string glance_section(const Results& results) {
     if (!focus.lesion.empty()) {
         cards += ffr_card(results, focus);
         cards += card("Pressure drop", change(results, with_key(focus, "/drop_pa"), as_mmHg), note("from the lesion's start to where FFR is read"));
-        cards += card("Minimum lumen", change(results, with_key(focus, "/minimum_diameter_mm"), as_mm), note("diameter of the largest sphere that fits"));
-        cards += card("Diameter stenosis", change(results, with_key(focus, "/diameter_stenosis_percent"), as_percent), note("against the lumen on both sides"));
+        cards += card("Minimum lumen", change(results, or_of_lumen(results, with_key(focus, "/minimum_diameter_mm"), "/minimum_diameter_mm"), as_mm), note("diameter of the largest sphere that fits"));
+        cards += card("Diameter stenosis", change(results, or_of_lumen(results, with_key(focus, "/diameter_stenosis_percent"), "/residual_stenosis_percent"), as_percent), note("against the lumen on both sides"));
         cards += card("Flow through it", change(results, with_key(focus, "/flow_m3_per_s"), as_mL_per_min), "");
         const bool is_gone = results.flows.size() > 1 && !focus.in_flow.back();
-        if (is_gone) cards += card("After", "no lesion", note("The lumen no longer narrows by a quarter there, so there is no place behind a lesion to read FFR at; the table of branches has the FFR at each branch's end."), "wide");
+        if (is_gone) cards += card("After", "no lesion", note("The lumen no longer narrows by a quarter there, so there is no place behind a lesion to read FFR at; the table of branches has the FFR at each branch's end."), "wide stent");
     }
     cards += stent_card(results);
     return "<section id=\"glance\">\n" + lead(results, focus) + (cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n") + quality_strip(results) + "</section>\n";

@@ -10,6 +10,7 @@
 #include "patency/report/curve.h"
 #include "patency/report/figures.h"
 #include "patency/report/picture.h"
+#include "patency/report/same_places.h"
 #include "patency/report/sections.h"
 
 namespace patency {
@@ -77,25 +78,12 @@ PullbackCurve curve_of(const CsvTable& table, double outlet, const char* column,
     return curve;
 }
 
-/// The outlet whose line runs through the lesion longest: that whose flow is nearest to the lesion's at the throat. The first without one.
-double outlet_through(const CsvTable& table, const nlohmann::ordered_json& part, const std::optional<std::size_t>& lesion) {
-    const auto *arc = table.find("arc_m"), *line = table.find("outlet"), *flow = table.find("flow_m3_per_s");
-    if (!lesion || !arc || !line || !flow) return 1;
-    const double throat = 1e-3 * part["lesions"][*lesion].value("throat_arc_mm", 0.0), wanted = part["lesions"][*lesion].value("flow_m3_per_s", 0.0);
-    double best = 1, least = INFINITY;
-    for (std::size_t k = 0; k < arc->size(); ++k) {
-        const double badness = std::abs((*arc)[k] - throat) / 1e-3 + std::abs((*flow)[k] - wanted) / std::max(std::abs(wanted), 1e-12) * 10;
-        if (badness < least - 1e-12) least = badness, best = (*line)[k];
-    }
-    return best;
-}
-
 std::string curves(const Results& results) {
     const FlowPart& first = results.flows.front();
     if (!first.pullback) return {};
     const auto& part = results.part(first);
     const auto worst = worst_lesion(part);
-    const double outlet = outlet_through(*first.pullback, part, worst);
+    const double outlet = worst ? outlet_through(*first.pullback, part["lesions"][*worst]) : 1;
     PullbackPlot pressure{.x_label = "Distance from the inlet, mm", .y_label = "Pressure, mmHg", .curves = {}, .spans = {}, .least = {}, .levels = {}}, ffr = pressure;
     ffr.y_label = "FFR", ffr.levels = {0.8}, ffr.least = 0.7;
     std::string legend;

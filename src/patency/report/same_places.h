@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A treated vessel has no lesion any more; what its flow does where the lesions were.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "patency/io/csv.h"
+
+namespace patency {
+
+/// The outlet (from 1) whose line in a pullback runs through a lesion of that flow's part of summary.json: of the lines that reach its
+/// throat, the one with the lesion's flow. 1 if there is none.
+double outlet_through(const CsvTable& pullback, const nlohmann::ordered_json& lesion);
+
+/// For each of `before`'s lesions, `after`'s flow at the same arcs of the same line: branch, arcs, flow, drop, velocities, ratio of gauge
+/// pressures and FFR under the keys that lesions have, for summary.json (after.at_lesions). Arguments: parts of summary.json and their
+/// pullback.csv. The drop begins half the lesion's length before its throat.
+nlohmann::ordered_json at_lesions_of(const nlohmann::ordered_json& before, const CsvTable& pullback_before, const nlohmann::ordered_json& after,
+                                     const CsvTable& pullback_after);
+
+}   // namespace patency
