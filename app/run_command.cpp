@@ -20,6 +20,7 @@
 #include "patency/config/deck.h"
 #include "patency/io/summary.h"
 #include "patency/report/page.h"
+#include "patency/report/same_places.h"
 #include "patency/stages/estimate_results.h"
 #include "patency/stages/flow_checkpoint.h"
 
@@ -106,6 +107,8 @@ private:
         return deck::read_case(deck);
     }
 
+    CsvTable pullback_of(std::string_view stage) const { return read_csv(folder_.file(stage) / "pullback.csv"); }
+
     /// All results in one summary and one page. A flow that did not settle is told by the exit code, whenever it was computed.
     ExitCode conclude() const {
         Json summary{{"name", config_.about.name}}, timing = Json::object();
@@ -120,6 +123,8 @@ private:
             summary[std::string(stage)] = part;
             timing[std::string(stage)] = times;
         }
+        if (summary.contains("before") && summary.contains("after"))   // an opened lesion is none any more
+            summary["after"]["at_lesions"] = at_lesions_of(summary["before"], pullback_of("before"), summary["after"], pullback_of("after"));
         write_summary(folder_.file("summary.json"), summary);
         write_summary(folder_.file("timing.json"), timing);
         say(fmt::format("the page: {}", write_report(folder_.root(), PATENCY_VERSION).string()));

@@ -128,6 +128,7 @@ TEST(Deck, ASettingOfNullTakesAKeyAway) {
     const Case c = parse_case(pipe_deck, "deck", "", cells);
     EXPECT_EQ(c.numerics.spacing, 0);
     EXPECT_EQ(c.numerics.across, 16);
+    EXPECT_EQ(parse_case(format_case(c)), c);   // with one of the two only
     EXPECT_EQ(parse_case(pipe_deck, "deck", "", {"numerics.nothing=null"}), parse_case(pipe_deck));
 }
 

@@ -122,7 +122,9 @@ std::vector<NamedCase> read_runs(const std::filesystem::path& path, const Settin
 std::string format_case(const Case& c, const std::filesystem::path& folder) {
     Scope scope;
     scope.folder = folder;
-    return format_yaml(write_record(table_of<Case>(), &c, scope));
+    Node deck = write_record(table_of<Case>(), &c, scope);
+    if (Node* numerics = deck.find("numerics"); numerics && c.numerics.follows_vessel()) remove_entry(*numerics, "spacing");   // either or
+    return format_yaml(deck);
 }
 
 void write_case(const Case& c, const std::filesystem::path& path) {

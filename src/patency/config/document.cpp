@@ -157,8 +157,6 @@ Place place_of(const Node& root, std::string_view path) {
     return node->place;
 }
 
-namespace {
-
 void remove_entry(Node& map, std::string_view key) {
     for (std::size_t i = map.keys.size(); i-- > 0;)
         if (map.keys[i].text == key) {
@@ -166,8 +164,6 @@ void remove_entry(Node& map, std::string_view key) {
             map.items.erase(map.items.begin() + std::ptrdiff_t(i));
         }
 }
-
-}   // namespace
 
 void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mistakes) {
     Node *node = &root, *above = nullptr;

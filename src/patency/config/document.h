@@ -33,6 +33,7 @@ Node make_scalar(std::string text, bool in_quotes);
 Node make_list(std::vector<Node> items);
 /// Append a pair to a map (a null node becomes a map).
 void add_entry(Node& map, std::string_view key, Node value);
+void remove_entry(Node& map, std::string_view key);   ///< if it is there
 
 /// What is wrong with a deck; collected, so that a user sees all of it at once.
 class Mistakes {
