@@ -8,6 +8,7 @@
 #include "solid_runner.h"
 #include "patency/stages/build.h"
 #include "patency/stages/cell_plan.h"
+#include "patency/stages/deploy_plan.h"
 #include "patency/stages/plan.h"
 
 namespace patency::app {
@@ -34,6 +35,17 @@ void print_cell_plan(const std::string& path, const CellPlan& plan) {
     print_resolution(plan.across_narrowest, plan.memory, plan.seconds, plan.threads);
 }
 
+void print_deploy_plan(const deck::Case& config, int threads) {
+    const DeployPlan plan = plan_deploy(config, threads);
+    const StentPlace& place = plan.place;
+    fmt::print("  stent                {:.4g} x {:.4g} mm, opened to {:.4g} mm, along {:.4g} to {:.4g} mm from the inlet\n", 1e3 * place.pattern.diameter,
+               1e3 * place.pattern.length, 1e3 * place.diameter, 1e3 * place.start_arc(), 1e3 * place.end_arc());
+    fmt::print("  lumen there          {:.3g} mm at its narrowest, {:.3g} mm where healthy\n", 1e3 * place.narrowest, 1e3 * place.reference_diameter);
+    if (config.deployment.mode == deck::DeploymentMode::geometric) return fmt::print("  deployment           without mechanics, seconds\n");
+    fmt::print("  deployment           about {:.3g} particles of stent, {:.3g} of wall; {:.3g} steps, the stent's mass times {:.3g}; about {} on {} threads\n",
+               plan.stent_particles, plan.wall_particles, plan.steps, plan.mass_scaling, readable_time(plan.seconds), threads);
+}
+
 void check(const DeckOptions& options) {
     const deck::Case config = options.read();
     if (!config.solids.empty()) {
@@ -41,7 +53,13 @@ void check(const DeckOptions& options) {
         fmt::print("{}: the deck is right\n", options.path);
         return print_solid_plan(config);
     }
-    if (config.scheme() == deck::SchemeName::cells) return print_cell_plan(options.path, plan_cells(config, options.apply_threads(config)));
+    const auto deployment = [&] {
+        if (config.stent) print_deploy_plan(config, options.apply_threads(config));
+    };
+    if (config.scheme() == deck::SchemeName::cells) {
+        print_cell_plan(options.path, plan_cells(config, options.apply_threads(config)));
+        return deployment();
+    }
     const auto scene = build_frame(config);
     const FlowPlan plan = plan_flow(*scene, options.apply_threads(config));
     fmt::print("{}: the deck is right\n", options.path);
@@ -53,6 +71,7 @@ void check(const DeckOptions& options) {
     fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles,
                plan.wall_particles, plan.across_narrowest);
     print_resolution(plan.across_narrowest, plan.memory, plan.seconds, plan.threads);
+    deployment();
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
     double nearest = search.reach(), side = 0;
     Hit hit;
     bool is_inside = false;
-    for (const std::uint32_t* e = search.candidates().begin(vertex); e < search.candidates().end(vertex); ++e) {
-        const auto& [ia, ib, ic] = mesh.elements[*e];
+    for (const auto* near = search.candidates().begin(vertex); near < search.candidates().end(vertex); ++near) {
+        if (near->distance - search.moved() > nearest * (1 + 1e-9)) break;   // nor can those behind it be nearer
+        const std::uint32_t e = near->element;
+        const auto& [ia, ib, ic] = mesh.elements[e];
         const Vec3 &a = other.position[ia], &b = other.position[ib], &c = other.position[ic];
         const auto weights = other.planar() ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
         const Vec3 way = weights[0] * a + weights[1] * b + weights[2] * c - x;
@@ -40,7 +42,7 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
         const bool is_tie = std::abs(distance - nearest) <= 1e-9 * nearest;
         if (is_tie ? std::abs(out) <= side : distance > nearest) continue;
         nearest = distance, side = std::abs(out), is_inside = out > 0;
-        hit = {distance, distance > 0 ? way / distance : across / norm(across), *e, weights};
+        hit = {distance, distance > 0 ? way / distance : across / norm(across), e, weights};
     }
     return is_inside ? hit : Hit{};
 }

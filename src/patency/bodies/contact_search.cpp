@@ -8,6 +8,7 @@
 
 #include "patency/base/parallel.h"
 #include "patency/bodies/cell_hash.h"
+#include "patency/bodies/closest_point.h"
 
 namespace patency {
 
@@ -47,7 +48,7 @@ ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& e
         }
         return largest;
     };
-    size_ = std::max(side(vertices), side(elements));
+    size_ = side(elements);
     reach_ = reach_in_elements * size_;
     margin_ = margin_in_elements * size_;
     if (&vertices_ == &elements_) exclude_near();
@@ -87,16 +88,14 @@ void ContactSearch::exclude_near() {
     }
 }
 
-bool ContactSearch::is_stale() const {
-    return farthest(vertices_.position, vertices_then_) + farthest(elements_.position, elements_then_) > margin_;
-}
-
 void ContactSearch::update() {
-    if (is_stale()) find();
+    moved_ = farthest(vertices_.position, vertices_then_) + farthest(elements_.position, elements_then_);
+    if (moved_ > margin_) find();
 }
 
 void ContactSearch::find() {
     vertices_then_ = vertices_.position, elements_then_ = elements_.position;
+    moved_ = 0;
     const auto& mesh = elements_.mesh();
     const double away = reach_ + margin_;
     candidates_.start.assign(1, 0), candidates_.items.clear();
@@ -107,6 +106,12 @@ void ContactSearch::find() {
         size = std::max({size, norm(elements_.position[a] - elements_.position[b]), norm(elements_.position[a] - elements_.position[c])});
     const CellHash hash{away + size};
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
+    const auto distance_to = [&](std::uint32_t e, const Vec3& x) {
+        const auto& [ia, ib, ic] = mesh.elements[e];
+        const Vec3 &a = elements_.position[ia], &b = elements_.position[ib], &c = elements_.position[ic];
+        const auto w = elements_.planar() ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
+        return norm(w[0] * a + w[1] * b + w[2] * c - x);
+    };
     const Box near_vertices(vertices_.position);
     for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
         const Vec3& x = elements_.position[mesh.elements[e][0]];
@@ -125,10 +130,12 @@ void ContactSearch::find() {
                         for (const std::uint32_t e : found->second) {
                             if (norm(elements_.position[mesh.elements[e][0]] - x) > away + size) continue;
                             if (excluded_.rows() > 0 && std::binary_search(excluded_.begin(v), excluded_.end(v), e)) continue;
-                            candidates_.items.push_back(e);
+                            if (const double distance = distance_to(e, x); distance <= away) candidates_.items.push_back({e, distance});
                         }
                     }
-            std::sort(candidates_.items.begin() + std::ptrdiff_t(first), candidates_.items.end());
+            std::sort(candidates_.items.begin() + std::ptrdiff_t(first), candidates_.items.end(), [](const Candidate& a, const Candidate& b) {
+                return a.distance != b.distance ? a.distance < b.distance : a.element < b.element;
+            });
         }
         candidates_.start.push_back(std::uint32_t(candidates_.items.size()));
     }

@@ -13,20 +13,27 @@ public:
 
     /// Looks again where something has moved far enough to matter.
     void update();
-    /// Elements that may come within reach() of a vertex before the next update.
-    const Ragged<std::uint32_t>& candidates() const { return candidates_; }
+    /// An element that may come within reach() of a vertex before the next update, and how far away it was when it was looked for [m].
+    struct Candidate {
+        std::uint32_t element;
+        double distance;
+    };
+    /// Per vertex, the nearest first.
+    const Ragged<Candidate>& candidates() const { return candidates_; }
+    /// How far vertices and elements together have moved at most since then, as of the last update [m].
+    double moved() const { return moved_; }
     /// How deep a vertex may be in, and how far an element is looked for [m].
     double reach() const { return reach_; }
 
 private:
-    bool is_stale() const;
     void find();
     void exclude_near();
 
     const SolidSurface &vertices_, &elements_;
-    double size_ = 0, reach_ = 0, margin_ = 0;   // of the largest element; [m]
+    double size_ = 0, reach_ = 0, margin_ = 0, moved_ = 0;   // size: of the largest element; [m]
     std::vector<Vec3> vertices_then_, elements_then_;
-    Ragged<std::uint32_t> candidates_, excluded_;
+    Ragged<Candidate> candidates_;
+    Ragged<std::uint32_t> excluded_;
 };
 
 }   // namespace patency

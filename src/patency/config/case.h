@@ -138,6 +138,7 @@ struct Geometry {   // exactly one of surface, network, shape
     std::optional<std::string> unit;    ///< of the file's coordinates: m, cm, mm or um
     std::optional<std::string> space;   ///< axes of the file's coordinates: LPS or RAS
     std::optional<std::string> inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
+    std::map<std::string, std::string> names;   ///< surface: own names for openings, by the names that they are found under
     std::optional<Lesion> lesion;
     Extensions extensions;
     bool operator==(const Geometry&) const = default;

@@ -110,6 +110,8 @@ const Table& table_of<Geometry>() {
                                    .example = "LPS"}),
             row(&Geometry::inlet, {.key = "inlet", .help = "the opening of a surface that is the inlet, by its name or number; the largest if absent",
                                    .example = "\"outlet_2\""}),
+            row(&Geometry::names, {.key = "names", .help = "own names for the openings of a surface, by the names or numbers that patency inspect gives them",
+                                   .example = "{outlet_1: circumflex}"}),
             row(&Geometry::lesion, {.key = "lesion", .help = "a stenosis that narrows a branch of the network"}),
             row(&Geometry::extensions, {.key = "extensions", .help = "straight pieces put on the openings"}),
         },

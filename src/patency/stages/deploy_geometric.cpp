@@ -15,6 +15,7 @@
 #include "patency/shape/stent_chart.h"
 #include "patency/shape/surface_refine.h"
 #include "patency/stages/deploy_results.h"
+#include "patency/stages/deploy_scene.h"
 #include "patency/stages/lumen_after.h"
 #include "patency/stages/stopwatch.h"
 
@@ -46,7 +47,7 @@ void deploy_geometrically(const deck::Case& config, const DeployStage& stage) {
     const Stopwatch watch;
     const auto say = [&](const std::string& line) { stage.log(LogLevel::info, line); };
     deck::write_case(config, stage.folder.file("case.resolved.yaml"));
-    const Vessel before = read_vessel(config, config.wall.spacing.value_or(0.2e-3));
+    const Vessel before = read_vessel(config, network_resolution(config));
     const StentPlace place = place_stent(config, before);
     const Centreline& line = before.along->lines.lines[place.line];
     const LumenMorph morph{.radius = place.diameter / 2, .length = place.opened_length, .shoulder = shoulder_of(place, line, config.deployment.shoulder)};

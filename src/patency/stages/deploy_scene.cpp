@@ -15,8 +15,6 @@ namespace patency {
 
 namespace {
 
-constexpr double usual_wall_spacing = 0.2e-3;   // m
-constexpr double particles_through = 4;         // the wall, where nothing is said
 constexpr double carrying = 3;                  // spacings that the wall's surfaces look for particles: at the edge of a cut a kernel's support has too few
 
 SolidNumerics numerics_of(const deck::Case& config, double spacing) {
@@ -79,14 +77,6 @@ SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& patte
     return make_solid_material(alloy, "stent.alloy");
 }
 
-/// How much heavier the stent must be to need no more steps in the ramp than wanted: its stable step grows with the root.
-double scaling_for(const deck::Deployment& deployment, const SolidMaterial& material, const SolidNumerics& numerics) {
-    if (deployment.mass_scaling) return *deployment.mass_scaling;
-    const double step = numerics.cfl * numerics.kernel().h / ((1 + numerics.viscosity) * material.moduli().p_wave_speed(material.density));
-    const double wanted = deployment.ramp / deployment.steps;
-    return std::max(1.0, (wanted / step) * (wanted / step));
-}
-
 void carry_lumen(DeployScene& scene) {
     scene.lumen = scene.vessel.checked.surface;
     const double size = 0.5 * scene.wall_spacing;
@@ -110,6 +100,19 @@ void carry_lumen(DeployScene& scene) {
 
 }   // namespace
 
+double usual_wall_spacing(double thickness) { return std::min(0.2e-3, thickness / 4); }
+
+double network_resolution(const deck::Case& config) { return config.wall.spacing.value_or(usual_wall_spacing(INFINITY)); }
+
+double stent_mass_scaling(const deck::Case& config, const StentPattern& pattern, double spacing) {
+    const deck::Deployment& d = config.deployment;
+    if (d.mass_scaling) return *d.mass_scaling;
+    const SolidMaterial metal = stent_material(*config.stent, pattern);
+    const SolidNumerics n = numerics_of(config, spacing);
+    const double step = n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density)), wanted = d.ramp / d.steps;
+    return std::max(1.0, (wanted / step) * (wanted / step));
+}
+
 Surface DeployScene::lumen_now(const SolidParticles& wall_particles) {
     carrier->follow(wall_particles);
     Surface now = lumen;
@@ -121,16 +124,16 @@ std::unique_ptr<DeployScene> build_deployment(const deck::Case& config) {
     auto scene = std::make_unique<DeployScene>();
     scene->config = config;
     scene->solids.config = config;
-    scene->vessel = read_vessel(config, config.wall.spacing.value_or(usual_wall_spacing));
+    scene->vessel = read_vessel(config, network_resolution(config));
     scene->place = place_stent(config, scene->vessel);
     scene->curves = make_strut_curves(scene->place.pattern);
     scene->field = field_around(config, scene->vessel, scene->place);
-    scene->wall_spacing = config.wall.spacing.value_or(std::min(usual_wall_spacing, scene->field->thinnest() / particles_through));
+    scene->wall_spacing = config.wall.spacing.value_or(usual_wall_spacing(scene->field->thinnest()));
     scene->stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(scene->curves));
 
     const SolidMaterial metal = stent_material(*config.stent, scene->place.pattern);
     const SolidNumerics numerics = numerics_of(config, scene->stent_spacing);
-    scene->mass_scaling = scaling_for(config.deployment, metal, numerics);
+    scene->mass_scaling = stent_mass_scaling(config, scene->place.pattern, scene->stent_spacing);
     scene->stent = make_stent_part("stent", scene->curves, scene->place.axis, metal, numerics, scene->mass_scaling);
     scene->wall = make_wall_part(*scene);
     carry_lumen(*scene);

@@ -37,10 +37,10 @@ deck::Case case_after(const deck::Case& config, const Vessel& before, Vessel& ve
         after.geometry.inlet = vessel.openings[inlet].opening.name;
         choose_inlet(vessel.openings, *after.geometry.inlet);
     }
-    after.openings.clear();
-    for (const SurfaceOpening& o : before.openings)
-        if (const auto said = config.openings.find(o.opening.name); said != config.openings.end())
-            after.openings[vessel.openings[same_opening(o.opening, vessel)].opening.name] = said->second;
+    for (const SurfaceOpening& o : before.openings) {   // the openings keep the names that they had
+        const std::string& found = vessel.openings[same_opening(o.opening, vessel)].opening.name;
+        if (found != o.opening.name) after.geometry.names[found] = o.opening.name;
+    }
     return after;
 }
 

@@ -9,7 +9,7 @@
 namespace patency {
 
 /// Writes lumen_after.vtp (mm), lumen_after.stl (the input's unit) and case_after.yaml: the deck without its stent, its openings under the
-/// names that the new surface's have. Returns the new surface as a flow will see it, not followed. Throws GeometryError if it cannot be
+/// names that they had. Returns the new surface as a flow will see it, not followed. Throws GeometryError if it cannot be
 /// used (the files stand, so that it can be looked at), FileError.
 Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const Surface& after, const OutputFolder& folder);
 

@@ -113,6 +113,7 @@ Vessel open_vessel(const deck::Case& config) {
     expect_usable(vessel, g);
     try {
         if (g.inlet) choose_inlet(vessel.openings, *g.inlet);
+        rename_openings(vessel.openings, g.names);
     } catch (const UsageError& error) {
         throw DeckError(fmt::format("geometry.inlet: {}", error.what()));
     }

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// A deployment as a user sees it: the quick one to its end, the phases of the other, and the lumen that a flow goes on with.
+#include "patency/stages/deploy.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "patency/config/deck.h"
+#include "patency/io/summary.h"
+#include "patency/io/surface_file.h"
+#include "patency/stages/deploy_program.h"
+#include "patency/stages/vessel.h"
+#include "tests/stages/results_folder.h"
+
+namespace patency {
+namespace {
+
+const std::string bifurcation = std::string(PATENCY_SOURCE_DIR) + "/cases/coronary_bifurcation.yaml";
+
+TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
+    deck::Case config = deck::read_case(bifurcation, {"stent={design: paper}", "deployment={diameter: 3.3 mm, mode: geometric}"});
+    const Folder out;
+    const OutputFolder folder(out.path);
+    ASSERT_TRUE(run_deploy(config, {.folder = folder}));
+    const auto deploy = read_summary(folder.file("summary.json"))["deploy"];
+    EXPECT_FALSE(deploy["is_mechanical"].get<bool>());
+    EXPECT_TRUE(deploy["recoil_percent"].is_null());
+    EXPECT_NEAR(deploy["minimum_diameter_mm"].get<double>(), 3.3, 1e-6);
+    EXPECT_NEAR(deploy["lumen"]["minimum_diameter_before_mm"].get<double>(), 2.0, 0.02);
+    EXPECT_NEAR(deploy["lumen"]["minimum_diameter_mm"].get<double>(), 3.3, 0.04);
+    EXPECT_LT(deploy["malapposed_percent"].get<double>(), 1);
+
+    // The deck for the flow after has all openings, each with what it had, where it was.
+    const deck::Case after = deck::read_case(folder.file("case_after.yaml"));
+    EXPECT_FALSE(after.stent);
+    ASSERT_EQ(after.openings.size(), config.openings.size());
+    const Vessel before = read_vessel(config), vessel = read_vessel(after);
+    for (const SurfaceOpening& o : before.openings) {
+        const auto same = std::find_if(vessel.openings.begin(), vessel.openings.end(), [&](const SurfaceOpening& a) { return norm(a.opening.centre - o.opening.centre) < 0.02e-3; });
+        ASSERT_NE(same, vessel.openings.end()) << o.opening.name;
+        EXPECT_NEAR(same->opening.area, o.opening.area, 0.02 * o.opening.area);
+        EXPECT_TRUE(after.openings.at(same->opening.name) == config.openings.at(o.opening.name)) << o.opening.name;
+    }
+    EXPECT_TRUE(vessel.along->assessment.lesions.empty());
+    // Both files are one surface.
+    const Surface stl = read_surface(folder.file("lumen_after.stl"), "mm"), vtp = read_surface(folder.file("lumen_after.vtp"), "mm");
+    ASSERT_EQ(stl.triangles.size(), vtp.triangles.size());
+    EXPECT_NEAR(volume(stl), volume(vtp), 1e-5 * volume(vtp));
+}
+
+StentPlace place_of(double cut, double crimped, double opened) {
+    StentPlace place{.pattern = {}, .diameter = opened, .crimped_diameter = crimped, .opened_length = 0, .line = 0, .arc = 0, .axis = {}, .reference_diameter = opened, .narrowest = 1e-3};
+    place.pattern.diameter = cut, place.pattern.strut_thickness = 0.1e-3;
+    return place;
+}
+
+TEST(DeployProgram, CrimpsOpensAndLetsGo) {
+    deck::Deployment said;
+    said.ramp = 2e-3;
+    const DeployProgram p = make_deploy_program(place_of(2e-3, 1.2e-3, 3.2e-3), said);
+    std::vector<DeployPhase> phases;
+    for (const auto& entry : p.phases) phases.push_back(entry.phase);
+    EXPECT_EQ(phases, (std::vector{DeployPhase::crimp, DeployPhase::release, DeployPhase::open, DeployPhase::hold, DeployPhase::deflate, DeployPhase::settle}));
+    EXPECT_DOUBLE_EQ(p.phases[0].end, 0.4 * 2e-3);   // as fast as it opens: 0.8 mm of 2 mm
+    EXPECT_DOUBLE_EQ(p.crimper(0), 1e-3);
+    EXPECT_DOUBLE_EQ(p.crimper(p.phases[0].end), 0.6e-3);
+    EXPECT_GT(p.crimper(p.phases[1].end), 1e-3);
+    EXPECT_DOUBLE_EQ(p.open_to - p.open_from, 2e-3);
+    EXPECT_DOUBLE_EQ(p.balloon(0), 0.5e-3);          // the crimped stent's inner face
+    EXPECT_DOUBLE_EQ(p.balloon(p.open_to), 1.5e-3);  // the open one's
+    EXPECT_DOUBLE_EQ(p.balloon(p.phases[3].end), 1.5e-3);
+    EXPECT_DOUBLE_EQ(p.balloon(p.end()), 0.5e-3);
+    EXPECT_FALSE(p.predilation);
+}
+
+TEST(DeployProgram, OpensTheLesionBeforeIfAsked) {
+    deck::Deployment said;
+    said.predilation = 1.6e-3;
+    const DeployProgram p = make_deploy_program(place_of(2e-3, 1.2e-3, 3.2e-3), said);
+    ASSERT_EQ(p.phases[2].phase, DeployPhase::enter);
+    EXPECT_LT(p.predilation(0), 0.5e-3);
+    EXPECT_DOUBLE_EQ(p.predilation(p.phases[1].end), 0.8e-3);
+    EXPECT_LT(p.predilation(p.phases[2].end), 0.5e-3);
+    // A stent that comes as crimped needs no crimper.
+    const DeployProgram q = make_deploy_program(place_of(1.2e-3, 1.2e-3, 3.2e-3), {});
+    EXPECT_EQ(q.phases.front().phase, DeployPhase::open);
+    EXPECT_GT(q.crimper(0), 1.2e-3);
+}
+
+}   // namespace
+}   // namespace patency
