@@ -41,7 +41,7 @@ ExitCode run(const RunOptions& options) {
     const deck::Case config = options.deck.read();
     const int threads = options.deck.apply_threads(config);
     const OutputFolder folder(options.out);
-    if (!config.solids.empty()) return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads));
+    if (!config.solids.empty()) return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads), options.fresh);
     const OutputFolder before(folder.file("before"));
     const bool goes_on = !options.fresh && before.has_checkpoint("flow");
     if (!goes_on) folder.clear(), before.clear();
