@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, Stopped, ::testing::Values(ring, block));
 }   // namespace
 
 TEST_P(Stopped, GoOnWithTheSameBits) {
-    const auto straight = run("straight", {}, 1), stopped = run("stopped", {1, 9, 17, 1}, 2);
+    const auto straight = run("straight", {}, 1), stopped = run("stopped", {1, 60, 45, 30}, 2);   // before and while things touch
     EXPECT_NE(read_file(straight / "summary.json").find("touching_vertices"), std::string::npos);
     for (const char* file : {"summary.json", "energies.csv"}) EXPECT_EQ(read_file(stopped / file), read_file(straight / file)) << file;
     std::size_t frames = 0;
