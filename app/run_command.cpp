@@ -140,7 +140,7 @@ ExitCode run(const RunOptions& options) {
     const deck::Case config = options.deck.read();
     const std::string title = fmt::format("{} on {} threads", options.deck.path, options.deck.apply_threads(config));
     const OutputFolder folder(options.out);
-    if (!config.solids.empty()) return run_solid_stage(config, folder, title);
+    if (!config.solids.empty()) return run_solid_stage(config, folder, title, options.fresh);
     const std::vector<std::string> stages = stages_of(config, options.stages);
     return Run(config, folder, title, options.fresh).go(stages);
 }

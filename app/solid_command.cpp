@@ -16,13 +16,14 @@ namespace {
 struct SolidOptions {
     DeckOptions deck;
     std::string out;
+    bool fresh = false;
 };
 
 ExitCode run(const SolidOptions& options) {
     const deck::Case config = options.deck.read();
     const int threads = options.deck.apply_threads(config);
     const OutputFolder folder(options.out);
-    return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads));
+    return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads), options.fresh);
 }
 
 }   // namespace
@@ -32,6 +33,7 @@ void add_solid_command(CLI::App& program, ExitCode& exit_code) {
     const auto options = std::make_shared<SolidOptions>();
     options->deck.add_to(*command);
     command->add_option("-o,--out", options->out, "the folder for the results")->required();
+    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

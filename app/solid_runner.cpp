@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "stage_runner.h"
+#include "patency/io/hash.h"
 #include "patency/stages/run_solids.h"
 #include "patency/stages/solid_scene.h"
 
@@ -23,9 +24,10 @@ void note_signal(int signal) {
 
 }   // namespace
 
-ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, std::string_view heading) {
-    folder.clear();
-    const Log log = make_run_log(folder, false);
+ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, std::string_view heading, bool fresh) {
+    const bool goes_on = !fresh && folder.has_checkpoint("solid");
+    if (!goes_on) folder.clear();
+    const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, heading);
     std::signal(SIGINT, note_signal);
     std::signal(SIGTERM, note_signal);
@@ -35,7 +37,7 @@ ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, s
     };
     Progress progress = isatty(STDERR_FILENO) ? Progress(print, {.style = ProgressStyle::terminal, .interval = 0.2, .width = 0, .clock = {}}) : Progress(print);
     try {
-        if (run_solids(config, {.folder = folder, .interrupted = [] { return caught_signal != 0; }, .log = log, .progress = &progress})) return ExitCode::ok;
+        if (run_solids(config, {.folder = folder, .binary_hash = hex_text(hash_file("/proc/self/exe")), .interrupted = [] { return caught_signal != 0; }, .log = log, .progress = &progress})) return ExitCode::ok;
     } catch (const Error& error) {
         log(LogLevel::error, error.what());
         throw;

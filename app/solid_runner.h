@@ -8,8 +8,9 @@
 
 namespace patency::app {
 
-/// Solids of a case into a folder, from the beginning. SIGINT and SIGTERM end it (130, 143). What throws is in the log.
-ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, std::string_view heading);
+/// Solids of a case into a folder, on from its checkpoint unless begun afresh. SIGINT and SIGTERM leave one (130, 143). What
+/// throws is in the log.
+ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, std::string_view heading, bool fresh);
 
 /// Prints what a deck of solids will cost: particles, stable step, steps.
 void print_solid_plan(const deck::Case& config);

@@ -74,11 +74,13 @@ output: {interval: 0.5 ms}
     EXPECT_TRUE(fs::exists(folder_ / "out" / "frames" / "block_000002.vtp"));
     EXPECT_NE(content(folder_ / "out" / "summary.json").find("largest_penetration_m"), std::string::npos);
     const std::string summary = content(folder_ / "out" / "summary.json"), energies = content(folder_ / "out" / "energies.csv");
-    EXPECT_EQ(patency("run " + deck + " --threads 2 -o " + out()).exit_code, 0);
+    EXPECT_EQ(patency("run " + deck + " --fresh --threads 2 -o " + out()).exit_code, 0);
     EXPECT_EQ(content(folder_ / "out" / "summary.json"), summary) << "the same numbers for any number of threads";
     EXPECT_EQ(content(folder_ / "out" / "energies.csv"), energies);
     EXPECT_EQ(patency("flow " + deck + " -o " + (folder_ / "flow").string()).exit_code, 3);
-    const Result fast = patency("solid " + deck + " --set 'solids.0.velocity=[0 m/s, -400 m/s, 0 m/s]' -o " + out());
+    const std::string hurled = "solid " + deck + " --set 'solids.0.velocity=[0 m/s, -400 m/s, 0 m/s]' -o " + out();
+    EXPECT_EQ(patency(hurled).exit_code, 8) << "the checkpoint is another deck's";
+    const Result fast = patency(hurled + " --fresh");
     EXPECT_EQ(fast.exit_code, 5) << fast.output;
     EXPECT_NE(fast.output.find("inside out at t ="), std::string::npos) << fast.output;
     EXPECT_TRUE(fs::exists(folder_ / "out" / "offenders.vtp"));

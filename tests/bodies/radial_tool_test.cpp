@@ -143,13 +143,16 @@ TEST(RadialTool, ItsWorkIsWhatSolidAndContactGet) {
     EXPECT_NEAR(r.work, to_tube + r.energy + r.friction_loss + r.damping_loss, 0.02 * r.work);
 }
 
-TEST(RadialTool, RadiusSetsOutAndArrivesWithoutSpeed) {
-    const auto radius = smooth_radius({1, 2, 4}, {1e-3, 3e-3, 2e-3});
+TEST(RadialTool, RadiusGoesAtOneSpeedFromRestToRest) {
+    const auto radius = steady_radius({1, 2, 4}, {1e-3, 3e-3, 2e-3});
     EXPECT_EQ(radius(0), 1e-3);
     EXPECT_EQ(radius(1.5), 2e-3);
     EXPECT_EQ(radius(2), 3e-3);
     EXPECT_EQ(radius(9), 2e-3);
-    for (const double t : {1.0, 2.0, 4.0}) EXPECT_LT(std::abs(radius(t + 1e-3) - radius(t - 1e-3)), 1e-9);
+    for (const double t : {1.0, 2.0, 4.0}) EXPECT_LT(std::abs(radius(t + 1e-6) - radius(t - 1e-6)), 1e-10 * 2e-3);
+    double fastest = 0;
+    for (double t = 1; t < 2; t += 1e-3) fastest = std::max(fastest, (radius(t + 1e-6) - radius(t)) / 1e-6);
+    EXPECT_NEAR(fastest, 2e-3 / 0.95, 1e-6);
 }
 
 TEST(RadialTool, GoesOnFromItsState) {

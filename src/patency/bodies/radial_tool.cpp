@@ -15,34 +15,51 @@ namespace {
 /// How deep a place is in the tool, and which way is out.                                               THEORY (21.11)
 class ToolShape {
 public:
-    ToolShape(RadialTool tool, std::size_t vertices) : tool_(std::move(tool)), along_(vertices, std::numeric_limits<double>::quiet_NaN()) {}
+    ToolShape(RadialTool tool, std::size_t vertices)
+        : tool_(std::move(tool)), along_(vertices, std::numeric_limits<double>::quiet_NaN()), free_(vertices) {}
 
     void move(double time, double dt) {
         radius_ = tool_.radius(time);
         speed_ = dt > 0 ? (radius_ - tool_.radius(time - dt)) / dt : 0.0;
     }
     RigidHit hit(std::size_t vertex, const Vec3& x) {
-        const bool is_known = !std::isnan(along_[vertex]);   // a vertex stays near where it was
-        const StentPoint at = is_known ? tool_.axis.coordinates(x, along_[vertex]) : tool_.axis.coordinates(x);
-        along_[vertex] = at.along;
-        const double past = std::abs(at.along) - tool_.length / 2;
-        if (tool_.kind == RadialTool::Kind::crimper) {
-            if (past > 0 || at.radius <= radius_) return {};
-            const Vec3 out = tool_.axis.outward(at);
-            return {at.radius - radius_, -out, speed_ * out};
-        }
-        const double distance = past > 0 ? std::hypot(at.radius, past) : at.radius;
-        if (distance >= radius_ || distance == 0) return {};
-        Vec3 out = tool_.axis.outward(at);
-        if (past > 0) out = (at.radius / distance) * out + (std::copysign(past, at.along) / distance) * tool_.axis.tangent(at);
-        return {radius_ - distance, out, speed_ * out};
+        Free& free = free_[vertex];
+        if (free.clearance > 0 && norm(x - free.place) + std::abs(radius_ - free.radius) < free.clearance) return {};
+        const RigidHit found = look(vertex, x);
+        free = {x, radius_, -share_trusted * std::min(0.0, found.depth)};
+        return found;
     }
     double radius() const { return radius_; }
     double along(std::size_t vertex) const { return along_[vertex]; }
 
 private:
+    /// Where a vertex was found to be free, and how far it or the tool may move until it is looked at again.
+    struct Free {
+        Vec3 place;
+        double radius = 0, clearance = 0;   // [m]
+    };
+    static constexpr double share_trusted = 0.5;   // of the distance: an axis that bends changes it a little faster than x
+
+    RigidHit look(std::size_t vertex, const Vec3& x) {
+        const bool is_known = !std::isnan(along_[vertex]);   // a vertex stays near where it was
+        const StentPoint at = is_known ? tool_.axis.coordinates(x, along_[vertex]) : tool_.axis.coordinates(x);
+        along_[vertex] = at.along;
+        const double past = std::abs(at.along) - tool_.length / 2;
+        if (tool_.kind == RadialTool::Kind::crimper) {
+            if (past > 0) return {.depth = -past};
+            if (at.radius <= radius_) return {.depth = at.radius - radius_};
+            const Vec3 out = tool_.axis.outward(at);
+            return {at.radius - radius_, -out, speed_ * out};
+        }
+        const double distance = past > 0 ? std::hypot(at.radius, past) : at.radius;
+        if (distance >= radius_ || distance == 0) return {.depth = std::min(0.0, radius_ - distance)};
+        Vec3 out = tool_.axis.outward(at);
+        if (past > 0) out = (at.radius / distance) * out + (std::copysign(past, at.along) / distance) * tool_.axis.tangent(at);
+        return {radius_ - distance, out, speed_ * out};
+    }
     RadialTool tool_;
     std::vector<double> along_;
+    std::vector<Free> free_;
     double radius_ = 0, speed_ = 0;
 };
 
@@ -76,12 +93,12 @@ private:
 
 }   // namespace
 
-std::function<double(double)> smooth_radius(std::vector<double> times, std::vector<double> radii) {
+std::function<double(double)> steady_radius(std::vector<double> times, std::vector<double> radii) {
     return [times = std::move(times), radii = std::move(radii)](double t) {
         const auto after = std::size_t(std::upper_bound(times.begin(), times.end(), t) - times.begin());
         if (after == 0) return radii.front();
         if (after == times.size()) return radii.back();
-        return radii[after - 1] + (radii[after] - radii[after - 1]) * smooth_rise((t - times[after - 1]) / (times[after] - times[after - 1]));
+        return radii[after - 1] + (radii[after] - radii[after - 1]) * steady_rise((t - times[after - 1]) / (times[after] - times[after - 1]));
     };
 }
 

@@ -125,7 +125,7 @@ const Table& table_of<RadialToolDeck>() {
         row(&RadialToolDeck::from, {.key = "from", .help = "one end of its axis", .unit = "mm", .range = between(-largest_length, largest_length), .need = always}),
         row(&RadialToolDeck::to, {.key = "to", .help = "the other end", .unit = "mm", .range = between(-largest_length, largest_length), .need = always}),
         row(&RadialToolDeck::times, {.key = "times", .help = "when", .unit = "s", .range = at_least(0), .need = always}),
-        row(&RadialToolDeck::diameters, {.key = "diameters", .help = "its diameter at these times, smooth between", .unit = "mm",
+        row(&RadialToolDeck::diameters, {.key = "diameters", .help = "its diameter at these times; between them it goes at one speed", .unit = "mm",
                                          .range = above_up_to(0, largest_length), .need = always}),
     });
     return table;

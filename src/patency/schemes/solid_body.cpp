@@ -151,6 +151,23 @@ SolidEnergy SolidBody::energy() {
     return e;
 }
 
+std::vector<double> SolidBody::state() const {
+    std::vector<double> state = {time_, viscous_, drag_, load_work_, constraint_work_, old_force_.empty() ? 0.0 : 1.0};
+    const auto add = [&](const std::vector<Vec3>& vectors) {
+        for (const Vec3& v : vectors) state.insert(state.end(), {v.x, v.y, v.z});
+    };
+    add(reactions_), add(old_force_);
+    return state;
+}
+
+void SolidBody::restore(std::span<const double> state) {
+    const double* at = state.data();
+    for (double* x : {&time_, &viscous_, &drag_, &load_work_, &constraint_work_}) *x = *at++;
+    old_force_.resize(*at++ != 0 ? particles().size() : 0);
+    for (std::vector<Vec3>* vectors : {&reactions_, &old_force_})
+        for (Vec3& v : *vectors) v = {at[0], at[1], at[2]}, at += 3;
+}
+
 void SolidBody::find_constrained() {
     constrained_.assign(solid_.constraints.size(), {});
     reactions_.assign(solid_.constraints.size(), Vec3{});

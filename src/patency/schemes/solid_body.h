@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "patency/bodies/solid.h"
@@ -68,6 +69,10 @@ public:
     /// What constraint (from 0) gave so far [N s].
     const Vec3& reaction_impulse(std::size_t constraint) const { return reactions_.at(constraint); }
     virtual double mean_neighbours() const = 0;
+
+    /// What the next step and the reports depend on beside the particles, for a checkpoint; taken back as it was given.
+    virtual std::vector<double> state() const;
+    virtual void restore(std::span<const double> state);
 
     const Solid& solid() const { return solid_; }
     SolidParticles& particles() { return solid_.particles; }

@@ -50,7 +50,7 @@ int strides_in_step(const SolidSystem& system);
 /// From `time` to time + dt [s], in as many steps of the fastest part as the largest stride. Throws DivergedError.
 void solid_step(SolidSystem& system, double time, double dt);
 
-/// Steps that a driven ramp needs at least, so that a stent's kinetic energy stays small beside its internal one.
+/// Steps that a driven ramp needs at least; a ring of crowns by itself needs several times as many to stay quasi-static.
 inline constexpr double least_steps_of_ramp = 15000;
 
 }   // namespace patency

@@ -60,6 +60,23 @@ public:
     Mat3 deformation(std::size_t i) const override { return is_deformed_ ? deformation_gradient(input_, i) : identity<double>(); }
     double mean_neighbours() const override { return double(rows_.pair_count()) / double(std::max<std::size_t>(1, rows_.member_count())); }
 
+    /// The body's, and the deformation as it was computed last: the next stable step is told by it.
+    std::vector<double> state() const override {
+        std::vector<double> state = SolidBody::state();
+        state.insert(state.end(), {displacement_unit_, input_.displacement_scale, is_deformed_ ? 1.0 : 0.0});
+        for (const auto& column : input_.sums)
+            for (std::size_t i = 0; i < particles().size(); ++i) state.push_back(double(column[i]));
+        return state;
+    }
+    void restore(std::span<const double> state) override {
+        SolidBody::restore(state);
+        const std::size_t n = particles().size();
+        const double* at = state.data() + state.size() - 9 * n - 3;
+        displacement_unit_ = *at++, input_.displacement_scale = *at++, is_deformed_ = *at++ != 0;
+        for (auto& column : input_.sums)
+            for (std::size_t i = 0; i < n; ++i) column[i] = T(*at++);
+    }
+
 private:
     Frame make_frame() const {
         const SolidParticles& p = solid_.particles;

@@ -192,6 +192,18 @@ void choose_inlet(std::vector<SurfaceOpening>& openings, std::string_view name_o
     give_names(openings);
 }
 
+void rename_openings(std::vector<SurfaceOpening>& openings, const std::map<std::string, std::string>& names) {
+    for (const auto& [found, own] : names)
+        if (std::none_of(openings.begin(), openings.end(), [&](const SurfaceOpening& o) { return o.opening.name == found; }))
+            throw UsageError(fmt::format("there is no opening '{}' to be named", shortened(found)));
+    for (SurfaceOpening& o : openings)
+        if (const auto own = names.find(o.opening.name); own != names.end()) o.opening.name = own->second;
+    for (std::size_t k = 0; k < openings.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (openings[j].opening.name == openings[k].opening.name)
+                throw UsageError(fmt::format("two openings would be '{}'", shortened(openings[k].opening.name)));
+}
+
 void expect_vessel_size(const SurfaceOpening& inlet, std::string_view unit) {
     const double diameter = 2 * inlet.opening.radius;
     if (is_vessel_size(diameter)) return;

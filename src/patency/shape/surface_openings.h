@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ std::vector<SurfaceOpening> find_openings(const CheckedSurface& checked);
 /// Names another one the inlet: by its name, or its number 1, 2.. in the list. It comes first then, the others
 /// stay by falling area. Throws UsageError.
 void choose_inlet(std::vector<SurfaceOpening>& openings, std::string_view name_or_number);
+
+/// Own names, by those that the openings have. Throws UsageError for a name that none has, or that two would have.
+void rename_openings(std::vector<SurfaceOpening>& openings, const std::map<std::string, std::string>& names);
 
 /// Throws GeometryError, a question about the unit, if the inlet's diameter is not one of a vessel (0.5 to 40 mm), with the
 /// units that would fit.

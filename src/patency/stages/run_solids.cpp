@@ -13,6 +13,8 @@
 #include "patency/io/csv.h"
 #include "patency/io/pvd.h"
 #include "patency/io/summary.h"
+#include "patency/stages/flow_checkpoint.h"
+#include "patency/stages/solid_checkpoint.h"
 #include "patency/stages/solid_output.h"
 #include "patency/stages/stopwatch.h"
 
@@ -24,19 +26,31 @@ constexpr int rows_of_energies = 200;   // over the duration, where the deck nam
 
 class SolidJob {
 public:
-    SolidJob(const deck::Case& config, const SolidStage& stage) : config_(config), stage_(stage) {
-        deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+    SolidJob(const deck::Case& config, const SolidStage& stage)
+        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("solid")) {
         scene_ = build_solids(config);
+        is_resumed_ = stage.folder.has_checkpoint("solid");
+        if (is_resumed_) {
+            const CheckpointReader reader(checkpoint_);
+            reader.expect_origin(origin_);
+            read_solid_checkpoint(reader, *scene_);
+            say(fmt::format("goes on at {:.6g} s", scene_->time));
+        } else {
+            deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+        }
         for (const auto& part : scene_->system.parts) {
             const ElasticModuli m = part->solid.materials[0].moduli();
             say(fmt::format("{}: {} particles; E {:.4g} Pa, nu {:.4g}, G {:.4g} Pa, K {:.4g} Pa", part->name, part->body->particles().size(), m.young(),
                             m.poisson(), m.shear, m.bulk));
-            series_.emplace_back(stage.folder.file(part->name + ".pvd"));
+            const auto file = stage.folder.file(part->name + ".pvd");
+            series_.push_back(is_resumed_ ? PvdWriter::resumed(file, scene_->time) : PvdWriter(file));
         }
         say(fmt::format("stable step {:.4g} s", stable_step(scene_->system)));
-        energies_.emplace(stage.folder.file("energies.csv"),
-                          std::vector<std::string>{"time_s", "kinetic_j", "elastic_j", "hourglass_j", "plastic_j", "contact_j", "viscous_loss_j",
-                                                   "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j", "damping_loss_j", "tool_work_j"});
+        const std::vector<std::string> columns = {"time_s", "kinetic_j", "elastic_j", "hourglass_j", "plastic_j", "contact_j", "viscous_loss_j",
+                                                  "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j", "damping_loss_j", "tool_work_j"};
+        const auto table = stage.folder.file("energies.csv");
+        energies_ = std::make_unique<CsvWriter>(is_resumed_ ? CsvWriter::resumed(table, columns, scene_->time) : CsvWriter(table, columns));
+        last_checkpoint_ = scene_->time;
     }
 
     bool run() {
@@ -53,26 +67,44 @@ private:
 
     bool advance() {
         const double end = config_.numerics.duration, interval = config_.output.interval.value_or(end), row = std::min(interval, end / rows_of_energies);
-        write_row();
-        if (config_.output.interval) write_frames();
-        for (double frame = interval, next = row; scene_->time < end;) {
-            const double until = std::min({frame, next, end});
-            while (scene_->time < until) {
-                step_solids(*scene_, until);
-                if (stage_.progress) stage_.progress->update(progress());
-                if (stage_.interrupted && stage_.interrupted()) {
-                    say(fmt::format("interrupted at {:.6g} s", scene_->time));
-                    return false;
-                }
+        if (!is_resumed_) {
+            write_row();
+            if (config_.output.interval) write_frames();
+        }
+        while (scene_->time < end) {
+            const double next_row = next_after(scene_->time, row), next_frame = next_after(scene_->time, interval);
+            const double until = std::min({next_row, next_frame, end});
+            step_solids(*scene_, until);
+            if (scene_->time == until) {
+                if (until == next_row || until == end) write_row();
+                if (until == next_frame || until == end) write_frames();
             }
-            if (until >= next || until == end) write_row(), next = row * (std::floor(until / row * (1 + 1e-12)) + 1);
-            if (until >= frame || until == end) write_frames(), frame = interval * (std::floor(until / interval * (1 + 1e-12)) + 1);
+            if (stage_.progress) stage_.progress->update(progress());
+            const bool is_interrupted = scene_->time < end && stage_.interrupted && stage_.interrupted();
+            if (is_interrupted || scene_->time == end || is_checkpoint_due()) write_checkpoint();
+            if (is_interrupted) {
+                say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", scene_->time));
+                return false;
+            }
         }
         if (stage_.progress) stage_.progress->finish(progress());
         write_summary(stage_.folder.file("summary.json"), solid_summary(*scene_));
         write_summary(stage_.folder.file("timing.json"), timing());
         say(fmt::format("done: {} steps in {:.1f} s", scene_->steps, watch_.wall()));
         return true;
+    }
+
+    /// The first multiple of `interval` after a time that may be one itself, to round-off.
+    static double next_after(double time, double interval) { return interval * (std::floor(time / interval * (1 + 1e-12)) + 1); }
+
+    bool is_checkpoint_due() const {   // between steps, and clips none: when it is written changes no bit
+        const auto& every = config_.output.checkpoint_interval;
+        if (every) return std::floor(scene_->time / *every) > std::floor(last_checkpoint_ / *every);
+        return watch_.wall() - last_checkpoint_wall_ > stage_.wall_between_checkpoints;
+    }
+    void write_checkpoint() {
+        write_solid_checkpoint(checkpoint_, origin_, *scene_);
+        last_checkpoint_ = scene_->time, last_checkpoint_wall_ = watch_.wall();
     }
 
     ProgressState progress() const { return {.stage = "solids", .fraction = scene_->time / config_.numerics.duration, .time = scene_->time, .step = scene_->steps}; }
@@ -126,7 +158,11 @@ private:
     Stopwatch watch_;
     std::unique_ptr<SolidScene> scene_;
     std::vector<PvdWriter> series_;
-    std::optional<CsvWriter> energies_;
+    std::unique_ptr<CsvWriter> energies_;
+    CheckpointOrigin origin_;
+    std::filesystem::path checkpoint_;
+    bool is_resumed_ = false;
+    double last_checkpoint_ = 0, last_checkpoint_wall_ = 0;
 };
 
 }   // namespace

@@ -63,6 +63,11 @@ Json part_json(SolidPart& part) {
             {"reaction_impulse_n_s", reactions}};
 }
 
+std::string other_of(const deck::ContactDeck& said) {
+    if (said.with) return *said.with;
+    return std::string(said.tool ? deck::words(said.tool->type)[std::size_t(said.tool->type)] : "plane");
+}
+
 }   // namespace
 
 PolyData solid_picture(SolidPart& part) {
@@ -96,7 +101,7 @@ nlohmann::ordered_json solid_summary(SolidScene& scene) {
     for (std::size_t k = 0; k < scene.system.contacts.size(); ++k) {
         const ContactReport r = scene.system.contacts[k]->report();
         const deck::ContactDeck& said = scene.config.contacts[k];
-        contacts.push_back({{"solid", said.solid}, {"with", said.with.value_or(said.plane ? "plane" : deck::words(said.tool->type)[std::size_t(said.tool->type)].data())}, {"force_n", vector_json(r.force)}, {"touching_vertices", r.touching},
+        contacts.push_back({{"solid", said.solid}, {"with", other_of(said)}, {"force_n", vector_json(r.force)}, {"touching_vertices", r.touching},
                             {"largest_penetration_m", r.deepest}, {"energy_j", r.energy}, {"friction_loss_j", r.friction_loss},
                             {"damping_loss_j", r.damping_loss}, {"work_j", r.work}, {"normal_force_n", r.normal_force}, {"pressure_pa", r.pressure}});
     }

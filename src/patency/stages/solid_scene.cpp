@@ -107,7 +107,7 @@ RadialTool make_radial_tool(const deck::RadialToolDeck& said) {
     return {.kind = said.type == deck::RadialToolType::balloon ? RadialTool::Kind::balloon : RadialTool::Kind::crimper,
             .axis = StentAxis(motion_along(way, 0.5 * (said.from + said.to))),
             .length = norm(way),
-            .radius = smooth_radius(said.times, radii)};
+            .radius = steady_radius(said.times, radii)};
 }
 
 /// Linear between, constant outside.
