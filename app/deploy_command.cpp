@@ -45,7 +45,8 @@ ExitCode run(const DeployOptions& options) {
     const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
     const ExitCode code = run_deploy_stage(config, folder, log);
-    if (code == ExitCode::ok) log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
+    if (code == ExitCode::ok || code == ExitCode::bar_missed)
+        log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
     return code;
 }
 

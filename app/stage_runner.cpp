@@ -78,11 +78,20 @@ ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, co
     return outcome == Outcome::done ? ExitCode::ok : ExitCode::bar_missed;
 }
 
+bool is_quasi_static(const nlohmann::ordered_json& deploy) {
+    constexpr double most = 0.05;
+    return !deploy["kinetic_to_internal"].is_number() || deploy["kinetic_to_internal"].get<double>() < most;
+}
+
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
     const bool is_done = run_watched(log, [&](Progress& progress) {
         return run_deploy(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = is_interrupted, .log = log, .progress = &progress});
     });
-    return is_done ? ExitCode::ok : interruption();
+    if (!is_done) return interruption();
+    if (is_quasi_static(read_summary(folder.file("summary.json"))["deploy"])) return ExitCode::ok;
+    log(LogLevel::warning, "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so that recoil, strains and "
+                           "pressures are provisional; give deployment.steps more");
+    return ExitCode::bar_missed;
 }
 
 }   // namespace patency::app

@@ -2,6 +2,7 @@
 // A stage as a person runs it: its log, its progress line, its signals, a flow's table in the end.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "patency/base/errors.h"
@@ -18,7 +19,10 @@ Log make_run_log(const OutputFolder& folder, bool goes_on);
 /// duration is 6. What throws is in the log.
 ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
 
-/// The deployment of a case's stent into a folder; signals and what throws as of a flow.
+/// Whether a deployment's part of summary.json tells of solids that hardly moved for what they bore; one without mechanics is.
+bool is_quasi_static(const nlohmann::ordered_json& deploy);
+
+/// The deployment of a case's stent into a folder; signals and what throws as of a flow. One that was not quasi-static is 6.
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
 
 /// Of the program that runs.

@@ -12,7 +12,7 @@ namespace patency {
 namespace {
 
 /// At nine a slow part costs little as it is, and a stress that is held longer sees contact too late: two blocks that collide
-/// without damping gain 1 % of their energy at nine and 12 % at 27.
+/// without damping gain 1 % of their energy at nine (stiffness ratio 30) and 12 % at 27 (ratio 400).
 constexpr int longest_stride = 9;
 
 void compute_loads(SolidPart& part, const Vec3& gravity, double time) {
