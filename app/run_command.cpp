@@ -90,6 +90,7 @@ public:
                 say(stage + ": done before");
                 continue;
             }
+            if (stage == "deploy") here.clear();   // it has no checkpoint: one that was interrupted begins anew
             if (stages.size() > 1 || stage != "before") say(fmt::format("--- {} ---", stage));
             const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, log_) : run_flow_stage(stage == "after" ? deck_after() : config_, here, log_);
             if (code != ExitCode::ok && code != ExitCode::bar_missed) return code;

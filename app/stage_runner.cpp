@@ -85,7 +85,7 @@ bool is_quasi_static(const nlohmann::ordered_json& deploy) {
 
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
     const bool is_done = run_watched(log, [&](Progress& progress) {
-        return run_deploy(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = is_interrupted, .log = log, .progress = &progress});
+        return run_deploy(config, {.folder = folder, .interrupted = is_interrupted, .log = log, .progress = &progress});
     });
     if (!is_done) return interruption();
     if (is_quasi_static(read_summary(folder.file("summary.json"))["deploy"])) return ExitCode::ok;

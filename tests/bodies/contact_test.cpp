@@ -9,6 +9,7 @@
 
 #include "patency/bodies/closest_point.h"
 #include "patency/bodies/solid_shape.h"
+#include "tests/bodies/surface_load.h"
 
 using namespace patency;
 
@@ -31,13 +32,7 @@ struct Body {
         for (Vec3& x : solid.particles.position) x += by;
         surface->follow(solid.particles);
     }
-    Vec3 load() {
-        for (Vec3& f : solid.particles.load) f = {};
-        surface->push(solid.particles);
-        Vec3 sum{};
-        for (const Vec3& f : solid.particles.load) sum += f;
-        return sum;
-    }
+    Vec3 load() { return load_by(*surface, solid.particles); }
     Vec3 torque() const {
         Vec3 sum{};
         for (std::size_t i = 0; i < solid.particles.size(); ++i) sum += cross(solid.particles.position[i], solid.particles.load[i]);

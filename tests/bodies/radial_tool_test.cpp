@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "patency/bodies/solid_shape.h"
+#include "tests/bodies/surface_load.h"
 
 using namespace patency;
 
@@ -29,13 +30,7 @@ struct Tube {
         surface = std::make_unique<SolidSurface>(fill.surface, solid.particles, 2.3 * spacing, false);
         surface->follow(solid.particles);
     }
-    Vec3 load() {
-        for (Vec3& f : solid.particles.load) f = {};
-        surface->push(solid.particles);
-        Vec3 sum{};
-        for (const Vec3& f : solid.particles.load) sum += f;
-        return sum;
-    }
+    Vec3 load() { return load_by(*surface, solid.particles); }
     /// Outward, through the particles' places across x.
     double radial_load() {
         load();

@@ -111,6 +111,18 @@ TEST(SurfaceOpenings, OfABranchingVessel) {
         EXPECT_THROW(choose_inlet(openings, wrong), UsageError) << wrong;
 }
 
+TEST(SurfaceOpenings, TakeNamesOfTheirOwn) {
+    std::vector<SurfaceOpening> openings(3);
+    openings[0].opening.name = "inlet", openings[1].opening.name = "outlet_1", openings[2].opening.name = "outlet_2";
+    std::vector<SurfaceOpening> turned = openings;
+    rename_openings(turned, {{"outlet_1", "outlet_2"}, {"outlet_2", "outlet_1"}});   // both at once
+    EXPECT_EQ(turned[0].opening.name, "inlet");
+    EXPECT_EQ(turned[1].opening.name, "outlet_2");
+    EXPECT_EQ(turned[2].opening.name, "outlet_1");
+    EXPECT_THROW(rename_openings(openings, {{"outlet_3", "distal"}}), UsageError);
+    EXPECT_THROW(rename_openings(openings, {{"outlet_1", "inlet"}}), UsageError);   // two would have it
+}
+
 TEST(SurfaceOpenings, AnImpossibleSizeIsAQuestionAboutTheUnit) {
     SurfaceOpening inlet{};
     inlet.opening.radius = 1.7;   // 3400 in mm

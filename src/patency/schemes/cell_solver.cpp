@@ -124,6 +124,10 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
         if (step > 0) least = std::min(least, worst);
         if (worst > runaway * least) throw fail("ran away");
         watch.add(worst, balance.end_states());
+        if (watch.is_stalled() && limit > first_limit) {   // long steps by a matrix of first order may go round in circles
+            limit = first_limit, courant = std::min(courant, limit);
+            watch = {};
+        }
         if (mean.count() > 0 || (watch.is_stalled() && watch.is_standing())) mean.add(balance.fields());
         if (mean.count() == int(StallWatch::window)) {
             balance.set_fields(mean.mean());

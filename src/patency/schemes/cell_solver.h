@@ -11,7 +11,7 @@ namespace patency {
 
 struct CellSolverSettings {
     double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
-    int most_iterations = 400;
+    int most_iterations = 500;
     double first_courant = 5, courant = 1000, growth = 1.4;
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 40;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "patency/base/log.h"
 #include "patency/config/case.h"
@@ -14,13 +13,13 @@ namespace patency {
 
 struct DeployStage {
     const OutputFolder& folder;
-    std::string binary_hash = {};               ///< of the program: another one would not go on with the same bits
     std::function<bool()> interrupted = {};     ///< asked now and then
     Log log = no_log;
     Progress* progress = nullptr;
 };
 
-/// As deployment.mode says. Returns whether it came to its end. Throws DeckError, GeometryError, FileError, DivergedError.
+/// As deployment.mode says. Returns whether it came to its end; interrupted, it leaves frames and tables but no summary.json, and begins
+/// anew when called again. Throws DeckError, GeometryError, FileError, DivergedError.
 bool run_deploy(const deck::Case& config, const DeployStage& stage);
 
 }   // namespace patency

@@ -111,12 +111,15 @@ Vessel open_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     Vessel vessel = check_vessel(read_surface(g.surface.value(), g.unit.value_or(""), g.space.value_or("")));
     expect_usable(vessel, g);
-    try {
-        if (g.inlet) choose_inlet(vessel.openings, *g.inlet);
-        rename_openings(vessel.openings, g.names);
-    } catch (const UsageError& error) {
-        throw DeckError(fmt::format("geometry.inlet: {}", error.what()));
-    }
+    const auto as_said_by = [](const char* key, auto change) {
+        try {
+            change();
+        } catch (const UsageError& error) {
+            throw DeckError(fmt::format("geometry.{}: {}", key, error.what()));
+        }
+    };
+    if (g.inlet) as_said_by("inlet", [&] { choose_inlet(vessel.openings, *g.inlet); });
+    as_said_by("names", [&] { rename_openings(vessel.openings, g.names); });
     expect_vessel_size(vessel.openings.front(), g.unit.value_or("mm"));
     return vessel;
 }

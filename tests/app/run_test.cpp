@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// patency run with a stent from outside: three stages, kept and resumed, and one summary.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "patency/io/summary.h"
+#include "tests/app/program.h"
+#include "tests/io/scratch_folder.h"
+
+namespace patency {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tube with a lesion and the stent for it, opened without mechanics, on few cells. The names are not those that the
+/// openings of a surface get.
+class Run : public ::testing::Test {
+protected:
+    Run() {
+        std::ofstream(folder_ / "tube.json") << R"({"unit": "mm", "blend_width_k": 0.1,
+  "tubes": [{"name": "tube", "points": [[-2, 0, 0, 1.5], [8, 0, 0, 1.5], [18, 0, 0, 1.5], [28, 0, 0, 1.5]]}],
+  "ends": {"inlet": {"point": [0, 0, 0], "outward_normal": [-1, 0, 0], "radius": 1.5},
+           "distal": {"point": [26, 0, 0], "outward_normal": [1, 0, 0], "radius": 1.5}}})";
+        std::ofstream(deck()) << R"(version: 1
+case: {name: tube}
+geometry: {network: tube.json, lesion: {branch: tube, position: "13 mm", length: "5 mm", diameter_stenosis_percent: 50}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+aorta: {pressure: "93 mmHg"}
+openings:
+  inlet: {type: pressure, pressure: "93 mmHg"}
+  distal: {type: resistance, resistance: "2e10 Pa s/m^3"}
+stent: {design: paper}
+deployment: {mode: geometric, diameter: "3 mm"}
+numerics: {spacing: "0.32 mm", duration: "1 s"}
+)";
+    }
+    fs::path deck() const { return folder_ / "case.yaml"; }
+    fs::path out() const { return folder_ / "out"; }
+    Result run(const std::string& more = "") const { return patency(fmt::format("run {} -o {} {}", deck().string(), out().string(), more)); }
+    std::string content(const fs::path& path) const {
+        std::ifstream file(path);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(Run, AStentOpensTheLesionAndStagesThatEndedAreKept) {
+    const Result first = run("--stages before");
+    ASSERT_EQ(first.exit_code, 0) << first.output;
+    EXPECT_FALSE(read_summary(out() / "summary.json").contains("deploy"));
+    const auto flow_then = fs::last_write_time(out() / "before/summary.json");
+
+    const Result all = run();
+    ASSERT_EQ(all.exit_code, 0) << all.output;
+    EXPECT_NE(all.output.find("before: done before"), std::string::npos) << all.output;
+    EXPECT_EQ(fs::last_write_time(out() / "before/summary.json"), flow_then);
+    const auto summary = read_summary(out() / "summary.json");
+    const double before = summary["before"]["ffr"]["lesion"], after = summary["after"]["at_lesions"][0]["ffr"];
+    EXPECT_LT(before, 1);
+    EXPECT_GT(after, before + 0.5 * (1 - before));
+    EXPECT_GT(summary["after"]["openings"]["distal"]["flow_m3_per_s"].get<double>(),   // under the name that it had
+              summary["before"]["openings"]["distal"]["flow_m3_per_s"].get<double>());
+    EXPECT_EQ(summary["deploy"]["mode"], "geometric");
+    EXPECT_TRUE(fs::exists(out() / "report.html"));
+
+    // A run in two goes says what a run in one says.
+    const std::string in_two = content(out() / "summary.json");
+    ASSERT_EQ(run("--fresh").exit_code, 0);
+    EXPECT_EQ(content(out() / "summary.json"), in_two);
+}
+
+TEST_F(Run, AnotherDeckInTheFolderIs8AndWrongStagesAre2) {
+    EXPECT_EQ(run("--stages befor").exit_code, 2);
+    EXPECT_EQ(run("--stages after").exit_code, 2);   // there is no deployment yet
+    ASSERT_EQ(run("--stages before").exit_code, 0);
+    const Result other = run("--set 'blood.viscosity=4 mPa s'");
+    EXPECT_EQ(other.exit_code, 8) << other.output;
+    EXPECT_TRUE(fs::exists(out() / "before/summary.json"));   // and nothing is lost
+    EXPECT_EQ(run("--stages deploy --set stent=null").exit_code, 2);
+}
+
+}   // namespace
+}   // namespace patency
