@@ -23,6 +23,7 @@
 #include "patency/report/same_places.h"
 #include "patency/stages/estimate_results.h"
 #include "patency/stages/flow_checkpoint.h"
+#include "patency/stages/stent_placement.h"
 
 namespace patency::app {
 
@@ -84,6 +85,8 @@ public:
     }
 
     ExitCode go(const std::vector<std::string>& stages) {
+        const bool will_deploy = std::find(stages.begin(), stages.end(), "deploy") != stages.end();
+        if (will_deploy) place_stent(config_, read_vessel(config_));   // a stent that cannot go there is refused before the flow
         for (const std::string& stage : stages) {
             const OutputFolder here(folder_.file(stage));
             if (std::filesystem::exists(here.file("summary.json"))) {

@@ -73,6 +73,13 @@ TEST_F(Run, AStentOpensTheLesionAndStagesThatEndedAreKept) {
     EXPECT_EQ(content(out() / "summary.json"), in_two);
 }
 
+TEST_F(Run, AStentThatCannotGoThereIsRefusedBeforeTheFlow) {
+    const Result refused = run("--set 'stent.placement={branch: tube, arc_length: 2 mm}'");
+    EXPECT_EQ(refused.exit_code, 4) << refused.output;
+    EXPECT_NE(refused.output.find("reaches past opening inlet"), std::string::npos) << refused.output;
+    EXPECT_FALSE(fs::exists(out() / "before/summary.json"));
+}
+
 TEST_F(Run, AnotherDeckInTheFolderIs8AndWrongStagesAre2) {
     EXPECT_EQ(run("--stages befor").exit_code, 2);
     EXPECT_EQ(run("--stages after").exit_code, 2);   // there is no deployment yet
