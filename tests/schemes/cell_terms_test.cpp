@@ -12,8 +12,8 @@ const Vec3 area{0.02, 0.01, -0.005}, from_left{0.1, 0.03, -0.02}, from_right{-0.
 
 TEST(CellTerms, leaveOneCellAndEnterTheOther) {
     for (const bool is_newtonian : {true, false}) {
-        const Flux there = through_face({area, norm(area), 0.1, from_left, from_right}, left, right, is_newtonian);
-        const Flux back = through_face({-area, norm(area), 0.1, from_right, from_left}, right, left, is_newtonian);
+        const Flux there = through_face({area, norm(area), 0.1, from_left, from_right}, left, right, sharp, is_newtonian);
+        const Flux back = through_face({-area, norm(area), 0.1, from_right, from_left}, right, left, sharp, is_newtonian);
         EXPECT_DOUBLE_EQ(there.volume, -back.volume);
         EXPECT_LT(norm(there.momentum + back.momentum), 1e-15);
         EXPECT_NE(there.volume, 0);
@@ -28,11 +28,11 @@ TEST(CellTerms, carryALinearFieldExactly) {
         return CellState{5 + dot(slope, x), Vec3{1, 0, 2} + g * x, slope, g, 0.02, 0.4};
     };
     const Vec3 a{0.1, 0.2, 0}, b{0.3, 0.1, 0.1}, c{0.22, 0.17, 0.04};
-    const Flux flux = through_face({area, norm(area), 0.1, c - a, c - b}, state_at(a), state_at(b), true);
+    const Flux flux = through_face({area, norm(area), 0.1, c - a, c - b}, state_at(a), state_at(b), sharp, true);
     const CellState there = state_at(c);
     EXPECT_NEAR(flux.volume, dot(area, there.u), 1e-15);
     const Vec3 normal = (1 / norm(area)) * area;
-    const Vec3 expected = flux.volume * there.u + carried_by_spread(norm(area), normal, there.grad_u) + there.p * area -
+    const Vec3 expected = flux.volume * there.u + carried_by_spread(norm(area), normal, there.grad_u, sharp.second_moment) + there.p * area -
                           0.02 * 0.1 * (there.grad_u * (b - a));
     EXPECT_LT(norm(flux.momentum - expected), 1e-15);
 }
@@ -42,12 +42,12 @@ TEST(CellTerms, carryTheSpreadOfAShear) {
     const double side = 0.2, rate = 3, tilt = 0.7;   // u = (tilt y, rate y, 0), n = y's neighbour x
     Mat3 g{};
     g = outer(Vec3{tilt, rate, 0}, Vec3{0, 1, 0});
-    const Vec3 spread = carried_by_spread(side * side, Vec3{1, 0, 0}, g);
+    const Vec3 spread = carried_by_spread(side * side, Vec3{1, 0, 0}, g, sharp.second_moment);
     const double second_moment = side * side / 12;   // mean of y^2
     EXPECT_NEAR(spread.x / (side * side * tilt * tilt * second_moment), 1, 0.05);
     EXPECT_NEAR(spread.y / (side * side * tilt * rate * second_moment), 1, 0.05);
     EXPECT_EQ(spread.z, 0);
-    EXPECT_EQ(norm(carried_by_spread(1, Vec3{0, 1, 0}, g)), 0);   // along n itself there is no spread
+    EXPECT_EQ(norm(carried_by_spread(1, Vec3{0, 1, 0}, g, sharp.second_moment)), 0);   // along n itself there is no spread
 }
 
 // u = s (alpha + beta s) over a plane wall: value and slope at s give alpha.

@@ -187,9 +187,9 @@ void CellBalance::compute_patch_fluxes() {
             patch_flux_[k] = into_wall(cell, patch.area, d, patch.distance, wall_viscosity(cell, patch));
         else if (is_open(patch))
             patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
-                                          ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{});
+                                          ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{}, transport_);
         else
-            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k));
+            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k), transport_);
     });
 }
 
@@ -235,7 +235,7 @@ void CellBalance::compute_residual(double kappa) {
     compute_open_pressures();
     for_each_index(mesh_.faces.size(), [&](std::size_t f) {
         const CellFace& face = mesh_.faces[f];
-        face_flux_[f] = through_face(face_of(face), state_[face.a], state_[face.b], is_newtonian_);
+        face_flux_[f] = through_face(face_of(face), state_[face.a], state_[face.b], transport_, is_newtonian_);
     });
     compute_patch_fluxes();
     sum_fluxes();

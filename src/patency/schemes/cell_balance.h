@@ -58,6 +58,7 @@ public:
 
     void set_fields(const CellFields& fields);
     CellFields fields() const;
+    void set_transport(const cell_terms::Transport& transport) { transport_ = transport; }   ///< sharp, if nothing is said
 
     /// Gradients, viscosities, sound speeds and fluxes of the fields that stand, and what they lack. THEORY.md (18.3)
     void compute_residual(double kappa);
@@ -118,6 +119,7 @@ private:
     CellFluid fluid_;
     double speed_, level_ = 0;   // level: subtracted from all pressures [Pa]
     bool is_newtonian_;
+    cell_terms::Transport transport_ = cell_terms::sharp;
     CellGradients for_pressure_, for_velocity_;
     std::vector<double> width_;   // of a cell [m]
     std::vector<Vec3> profile_;   // per patch: the velocity of a flow of -1 through its end

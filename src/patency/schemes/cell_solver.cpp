@@ -91,7 +91,10 @@ private:
 
 }   // namespace
 
-CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
+namespace {
+
+/// By the transport that the balance has.
+CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
     CellSolution solution;
     double courant = settings.first_courant, limit = settings.courant, kappa = settings.kappa;
     double least = INFINITY;
@@ -152,6 +155,43 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
         courant = std::min({limit, settings.growth * courant, momentum > unsteady ? first_limit : INFINITY});
     }
     throw fail("has not converged");
+}
+
+void append(CellSolution& solution, const CellSolution& before) {
+    solution.history.insert(solution.history.begin(), before.history.begin(), before.history.end());
+    solution.linear_steps += before.linear_steps;
+}
+
+bool is_interrupted(const CellSolution& solution) { return !solution.is_converged && !solution.is_settled; }
+
+}   // namespace
+
+CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
+    constexpr double sharp_from = 1e-3;     // of what cells lack: the way there is the damped transport's
+    constexpr double sharp_enough = 1e-5;   // lacking less, means of the sharp one are nearer to the truth than the damped one's rest
+    CellSolverSettings rough = settings;
+    rough.tolerance = std::max(settings.tolerance, sharp_from);
+    balance.set_transport(cell_terms::damped);
+    CellSolution damped = iterate(balance, matrix, rough);
+    damped.is_damped = true;
+    if (!damped.is_converged || settings.tolerance >= sharp_from) return damped;
+
+    const CellFields start = balance.fields();
+    balance.set_transport(cell_terms::sharp);
+    try {
+        CellSolution sharp = iterate(balance, matrix, settings);
+        append(sharp, damped);
+        const double lacking = std::max(balance.volume_residual(), balance.momentum_residual());
+        if (sharp.is_converged || is_interrupted(sharp) || lacking < sharp_enough) return sharp;
+        damped = sharp;
+    } catch (const DivergedError&) {   // the damped one may stand where the sharp one runs away
+    }
+    balance.set_transport(cell_terms::damped);
+    balance.set_fields(start);
+    CellSolution solution = iterate(balance, matrix, settings);
+    append(solution, damped);
+    solution.is_damped = true;
+    return solution;
 }
 
 }   // namespace patency

@@ -11,7 +11,7 @@ namespace patency {
 
 struct CellSolverSettings {
     double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
-    int most_iterations = 500;
+    int most_iterations = 400;   ///< with either transport
     double first_courant = 5, courant = 1000, growth = 1.4;
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 40;
@@ -30,12 +30,14 @@ struct CellSolution {
     /// Not to it: a jet that does not come to rest, while the openings' flows and pressures stand still. The fields are means
     /// over the last steps; neither: interrupted.
     bool is_settled = false;
+    bool is_damped = false;      ///< by the damped transport: the sharp one did not come to rest
     double swing = 0;            ///< of what stands still: largest change of a flow over all that flows, of a pressure over their range
     std::vector<CellIteration> history;
     int linear_steps = 0;
 };
 
-/// From the fields that the balance has. Throws DivergedError if it neither comes to the tolerance nor settles: what, and how far.
+/// From the fields that the balance has: with the damped transport first, then the sharp one; where that does not come to rest, by the
+/// damped one. Throws DivergedError if it neither comes to the tolerance nor settles: what, and how far.
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings);
 
 }   // namespace patency

@@ -28,10 +28,20 @@ struct Flux {
 /// The artificial sound speed of a cell of width h.                                            THEORY.md (18.8)
 inline double sound_speed(double kappa, double speed, double nu, double h) { return kappa * (speed + 4 * nu / h); }
 
+/// How faces carry the velocity: so much of it is what the side upstream extrapolates, the rest is the mean of both sides; and the
+/// second moment of a face over its squared area, 0 to leave out what varies along it. All of it is of second order; what comes from
+/// upstream adds a friction of fourth order.                                                   THEORY.md (18.5), (18.15)
+struct Transport {
+    double upwinding, second_moment;
+};
+/// Half of the upstream's word damps what swings on the way to a flow, and jets on few cells.
+inline constexpr Transport damped{0.5, 0};
+/// With it the boundary layer behind a plug at D/12 errs a third as much. 1 / 12.5: of a hexagon and of a disc; a square has 1 / 12.
+inline constexpr Transport sharp{0.2, 1 / 12.5};
+
 /// What a velocity that varies over a side carries beyond its mean: size times the mean of (u' . n) u', u' = grad u d, with d
 /// of a face that is about as wide as long.                                                     THEORY.md (18.15)
-inline Vec3 carried_by_spread(double size, const Vec3& normal, const Mat3& grad_u) {
-    constexpr double second_moment = 1 / 12.5;   // over the area, of a hexagon and of a disc; a square's is 1 / 12
+inline Vec3 carried_by_spread(double size, const Vec3& normal, const Mat3& grad_u, double second_moment) {
     const Vec3 slope = transpose(grad_u) * normal;
     return size * second_moment * size * (grad_u * (slope - dot(slope, normal) * normal));
 }
@@ -43,14 +53,9 @@ struct Face {
     Vec3 from_a, from_b;
 };
 
-/// How much of the velocity that a face carries is what the side upstream extrapolates; the rest is the mean of both sides. All of
-/// it is of second order, and what it adds is a friction of fourth order that damps waves of two cells. With half of it, as
-/// good as the third order in a row of cells, the boundary layer behind a plug at D/12 errs three times as much.
-inline constexpr double upwinding = 0.2;
-
 /// Mean values carry mass and pressure; what the pressures on both sides differ by stabilises the flow, and vanishes for a
 /// linear pressure. Swapping a and b flips the sign.                                            THEORY.md (18.4), (18.5)
-inline Flux through_face(const Face& face, const CellState& a, const CellState& b, bool is_newtonian) {
+inline Flux through_face(const Face& face, const CellState& a, const CellState& b, const Transport& transport, bool is_newtonian) {
     const Vec3 off = 0.5 * (face.from_a + face.from_b);   // from the middle of the points to the centroid
     const Mat3 grad_u = 0.5 * (a.grad_u + b.grad_u);
     const Vec3 mean_u = 0.5 * (a.u + b.u) + grad_u * off;
@@ -58,9 +63,9 @@ inline Flux through_face(const Face& face, const CellState& a, const CellState& 
     const double volume =
         dot(face.area, mean_u) - face.size / (a.c + b.c) * (b.p_at(face.from_b) - a.p_at(face.from_a));
     const Vec3 upstream = volume > 0 ? a.u_at(face.from_a) : b.u_at(face.from_b);
-    const Vec3 carried = mean_u + upwinding * (upstream - mean_u);
+    const Vec3 carried = mean_u + transport.upwinding * (upstream - mean_u);
     const double nu = 0.5 * (a.nu + b.nu);
-    Vec3 momentum = volume * carried + carried_by_spread(face.size, (1 / face.size) * face.area, grad_u) +
+    Vec3 momentum = volume * carried + carried_by_spread(face.size, (1 / face.size) * face.area, grad_u, transport.second_moment) +
                     mean_p * face.area - nu * face.conductance * (b.u - a.u);
     if (!is_newtonian) momentum -= nu * (transpose(grad_u) * face.area);
     return {volume, momentum};
@@ -81,9 +86,9 @@ inline Flux into_slip(const CellState& cell, const Vec3& area, const Vec3& d) { 
 
 /// Through an opening where the velocity u is imposed, which varies along it by grad_u.         THEORY.md (18.9)
 inline Flux through_imposed(const CellState& cell, const Vec3& area, const Vec3& d, double distance, const Vec3& u,
-                            const Mat3& grad_u) {
+                            const Mat3& grad_u, const Transport& transport) {
     const double volume = dot(u, area), size = norm(area);
-    return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u) + cell.p_at(d) * area -
+    return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u, transport.second_moment) + cell.p_at(d) * area -
                         cell.nu * size / distance * (u - cell.u)};
 }
 /// Through an opening where the pressure is imposed; the volume of it that does not depend on the pressure is free_volume.
@@ -93,10 +98,10 @@ inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d
 }
 /// What goes out carries the cell's velocity; what comes in brings `entering`: with its own again an inflow would feed itself.
 inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure,
-                         const Vec3& entering) {
+                         const Vec3& entering, const Transport& transport) {
     const double volume = free_volume(cell, area, d) - norm(area) / cell.c * pressure;
     const double size = norm(area);
-    const Vec3 spread = volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u);
+    const Vec3 spread = volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u, transport.second_moment);
     return {volume, volume * (volume < 0 ? entering : cell.u) + spread + pressure * area};
 }
 
