@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <memory>
 
 #include "commands.h"
+#include "interruption.h"
 #include "patency/base/errors.h"
 #include "patency/io/hash.h"
 #include "patency/io/progress.h"
@@ -20,9 +20,6 @@ namespace patency::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-volatile std::sig_atomic_t stop_signal = 0;
-void remember_signal(int signal) { stop_signal = signal; }
 
 /// The folder of the decks: the one asked for, else beside where we stand, else in the source tree.
 fs::path find_decks(const std::string& wanted) {
@@ -84,15 +81,14 @@ ExitCode run(const Options& o) {
         return ExitCode::ok;
     }
     if (o.threads > 0) omp_set_num_threads(o.threads);
-    std::signal(SIGINT, remember_signal);
-    std::signal(SIGTERM, remember_signal);
+    const Interruption interruption;
     const fs::path decks = find_decks(o.decks);
     Screen screen;
     VerifyRequest request{.names = o.names, .level = o.level == "full" ? Level::full : Level::quick, .out = o.out, .decks = decks,
                           .reference = o.reference.empty() ? decks / "../../../shared/data/reference" : fs::path(o.reference),
                           .program = hex_text(hash_file("/proc/self/exe")), .settings = o.settings, .fresh = o.fresh};
     request.report = [&](const VerifyProgress& p) { screen.show(p); };
-    request.interrupted = [] { return stop_signal != 0; };
+    request.interrupted = [&] { return interruption.is_wanted(); };
     bool all_pass = true;
     try {
         for (const CaseReport& report : run_verification(request)) {
@@ -100,8 +96,8 @@ ExitCode run(const Options& o) {
             all_pass = all_pass && report.passes();
         }
     } catch (const Error& error) {
-        if (error.code() != ExitCode::interrupted || stop_signal != SIGTERM) throw;
-        throw Error(ExitCode::terminated, error.what());
+        if (error.code() != ExitCode::interrupted) throw;
+        throw Error(interruption.exit_code(), error.what());
     }
     return all_pass ? ExitCode::ok : ExitCode::bar_missed;
 }
