@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
     app::add_deploy_command(program, exit_code);
     app::add_solid_command(program, exit_code);
     app::add_run_command(program, exit_code);
+    app::add_sweep_command(program, exit_code);
     app::add_report_command(program, exit_code);
     app::add_verify_command(program, exit_code);
     app::add_bench_command(program, exit_code);

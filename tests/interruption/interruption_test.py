@@ -127,12 +127,12 @@ def main():
         assert code == -signal.SIGKILL, f"not killed at call {n}: exit code {code}, {trial.said}"
         conclude(trial, f"killed before call {n}, in {trial.stage()}")
 
-    # By the clock, again and again on one folder until it has ended.
+    # By the clock, again and again on one folder until its stages have ended, then on another.
     kills = 0
     while kills < options.kills:
         trial = Trial(options, deck, folder / f"clock_{kills}")
         where = []
-        while kills < options.kills:
+        while kills < options.kills and trial.stage() != "end":
             process = trial.start()
             try:
                 process.wait(chance.uniform(0.05, 0.45) * length)
