@@ -104,12 +104,12 @@ def main():
     deck.write_text(DECK + NUMERICS[options.scheme])
 
     reference = Trial(options, deck, folder / "reference")
-    counted = folder / "calls.txt"
-    assert reference.run(LD_PRELOAD=options.killer, PATENCY_COUNT_INTO=str(counted)) == 0, reference.said
+    list_of_calls = folder / "calls.txt"
+    assert reference.run(LD_PRELOAD=options.killer, PATENCY_CALLS_INTO=str(list_of_calls)) == 0, reference.said
     length = time.monotonic() - reference.began
-    calls = int(counted.read_text())
-    print(f"left alone: {length:.1f} s, {calls} calls that change files", flush=True)
-    assert calls > 100, "the library that kills does not see the calls"
+    calls = list_of_calls.read_text().splitlines()
+    print(f"left alone: {length:.1f} s, {len(calls)} calls that change files", flush=True)
+    assert len(calls) > 100, "the library that kills does not see the calls"
 
     wrong = []
 
@@ -119,13 +119,14 @@ def main():
         print(f"{what}: {'; '.join(complaints) or 'the same'}", flush=True)
         wrong.extend(complaints)
 
-    # Before a call that changes a file: once at the beginning of the run, and then of what goes on. All of them, or some.
-    at_calls = range(1, calls + 1) if options.kills == 0 else sorted(chance.sample(range(1, calls + 1), options.kills))
-    for n in at_calls:
+    # Before a call that changes a file: where a stage's results are there and its times are not, and some others, or all.
+    at_calls = {n + 1 for n, call in enumerate(calls, 1) if call.startswith("rename") and call.endswith("/summary.json") and n < len(calls)}
+    at_calls |= set(range(1, len(calls) + 1) if options.kills == 0 else chance.sample(range(1, len(calls) + 1), options.kills))
+    for n in sorted(at_calls):
         trial = Trial(options, deck, folder / f"call_{n}")
         code = trial.run(LD_PRELOAD=options.killer, PATENCY_KILL_AT=str(n))
         assert code == -signal.SIGKILL, f"not killed at call {n}: exit code {code}, {trial.said}"
-        conclude(trial, f"killed before call {n}, in {trial.stage()}")
+        conclude(trial, f"killed before call {n} ({calls[n - 1]}), in {trial.stage()}")
 
     # By the clock, again and again on one folder until its stages have ended, then on another.
     kills = 0

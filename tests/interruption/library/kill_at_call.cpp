@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loaded before a program (LD_PRELOAD), kills it as kill -9 would just before its Nth call that changes a file or a folder: N is
-// PATENCY_KILL_AT. With PATENCY_COUNT_INTO=FILE it writes how many there were instead. So every state that a run can leave on the
-// disk is reached by a number, and not by luck.
+// PATENCY_KILL_AT. With PATENCY_CALLS_INTO=FILE it writes what they were instead, one a line. So every state that a run can leave on
+// the disk is reached by a number, and not by luck.
 #include <dlfcn.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -14,18 +14,13 @@ namespace {
 
 long calls = 0;
 
-void count_call() {
+void count_call(const char* name, const char* path) {
     static const char* const wanted = std::getenv("PATENCY_KILL_AT");
     if (++calls == (wanted ? std::atol(wanted) : -1)) ::kill(::getpid(), SIGKILL);
+    static const char* const into = std::getenv("PATENCY_CALLS_INTO");
+    static std::FILE* const list = into ? std::fopen(into, "w") : nullptr;
+    if (list) std::fprintf(list, "%s %s\n", name, path);
 }
-
-struct Report {
-    ~Report() {
-        const char* const path = std::getenv("PATENCY_COUNT_INTO");
-        if (!path) return;
-        if (std::FILE* file = std::fopen(path, "w")) std::fprintf(file, "%ld\n", calls), std::fclose(file);
-    }
-} report;
 
 template <class Function>
 Function* next(const char* name) {
@@ -37,31 +32,31 @@ Function* next(const char* name) {
 extern "C" {
 
 int fsync(int file) {
-    count_call();
+    count_call("fsync", "");
     return next<int(int)>("fsync")(file);
 }
 int rename(const char* from, const char* to) {
-    count_call();
+    count_call("rename", to);
     return next<int(const char*, const char*)>("rename")(from, to);
 }
 int mkdir(const char* path, mode_t mode) {
-    count_call();
+    count_call("mkdir", path);
     return next<int(const char*, mode_t)>("mkdir")(path, mode);
 }
 int ftruncate(int file, off_t length) {
-    count_call();
+    count_call("ftruncate", "");
     return next<int(int, off_t)>("ftruncate")(file, length);
 }
 int remove(const char* path) {
-    count_call();
+    count_call("remove", path);
     return next<int(const char*)>("remove")(path);
 }
 int unlinkat(int folder, const char* path, int flags) {
-    count_call();
+    count_call("unlinkat", path);
     return next<int(int, const char*, int)>("unlinkat")(folder, path, flags);
 }
 int fflush(std::FILE* file) {   // of rows in tables
-    if (file != stdout && file != stderr) count_call();
+    if (file != stdout && file != stderr) count_call("fflush", "");
     return next<int(std::FILE*)>("fflush")(file);
 }
 
