@@ -23,6 +23,7 @@
 #include "patency/report/same_places.h"
 #include "patency/stages/estimate_results.h"
 #include "patency/stages/flow_checkpoint.h"
+#include "patency/stages/materials_summary.h"
 #include "patency/stages/stent_placement.h"
 
 namespace patency::app {
@@ -38,10 +39,8 @@ struct RunOptions {
 
 using Json = nlohmann::ordered_json;
 
-/// What the tree of tubes says, with the bands of its uncertain numbers; null for a shape.
-Json estimate(const deck::Case& config, const Log& log) {
-    if (!config.has_vessel()) return nullptr;
-    const Vessel vessel = read_vessel(config);
+/// What the tree of tubes says, with the bands of its uncertain numbers.
+Json estimate(const deck::Case& config, const Vessel& vessel, const Log& log) {
     const Estimate e = estimate_flow(config, vessel);
     Json summary = estimate_summary(config, vessel, e, estimate_band(config, vessel));
     for (const auto& [name, opening] : summary["openings"].items())
@@ -117,12 +116,31 @@ private:
         return deck::read_case(deck);
     }
 
+    /// Before and, once a stent is in, after; null for a shape, which has no tree.
+    void add_estimates(Json& summary) const {
+        summary["estimate"] = nullptr;
+        if (!config_.has_vessel()) return;
+        const Vessel vessel = read_vessel(config_);
+        summary["estimate"] = estimate(config_, vessel, log_);
+        if (!has_ended("deploy")) return;
+        const deck::Case after = deck_after();
+        summary["estimate_after"] = estimate_after_summary(config_, vessel, after, read_vessel(after));
+    }
+
+    /// Of a stent that is in, too.
+    Json materials() const {
+        deck::Case used = config_;
+        if (!has_ended("deploy")) used.stent.reset();
+        return materials_summary(used);
+    }
+
     CsvTable pullback_of(std::string_view stage) const { return read_csv(folder_.file(stage) / "pullback.csv"); }
 
     /// All results in one summary and one page. A flow that did not settle is told by the exit code, whenever it was computed.
     ExitCode conclude() const {
         Json summary{{"name", config_.about.name}}, timing = Json::object();
-        summary["estimate"] = estimate(config_, log_);
+        summary["materials"] = materials();
+        add_estimates(summary);
         ExitCode code = ExitCode::ok;
         for (const std::string_view stage : all_stages) {
             if (!has_ended(stage)) continue;
