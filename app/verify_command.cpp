@@ -25,7 +25,9 @@ namespace fs = std::filesystem;
 fs::path find_decks(const std::string& wanted) {
     if (!wanted.empty()) return wanted;
     if (fs::exists("cases/verify")) return "cases/verify";
-    return fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
+    std::error_code error;   // an installed program has them beside it
+    const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share" / "patency" / "cases" / "verify";
+    return fs::exists(installed) ? installed : fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
 }
 
 /// A line per run; on its way it is rewritten on a terminal, and repeated every minute elsewhere.
@@ -66,7 +68,7 @@ void print_report(const CaseReport& report) {
 
 struct Options {
     std::vector<std::string> names, settings;
-    std::string level = "quick", out = "verification", decks, reference, report;
+    std::string level = "quick", out = "verification", decks, reference, report, run;
     int threads = 0;
     bool is_listing = false, fresh = false;
 };
@@ -77,7 +79,7 @@ ExitCode run(const Options& o) {
         return ExitCode::ok;
     }
     if (!o.report.empty()) {
-        write_verification_report(o.out, o.report);
+        write_verification_report(o.out, o.report, o.run);
         return ExitCode::ok;
     }
     if (o.threads > 0) omp_set_num_threads(o.threads);
@@ -115,6 +117,7 @@ void add_verify_command(CLI::App& program, ExitCode& exit_code) {
     command->add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
     command->add_option("--reference", o->reference, "Folder of stored results of other programs");
     command->add_option("--report", o->report, "Write the document of the results in the folder, and run nothing");
+    command->add_option("--run", o->run, "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
     command->add_flag("--fresh", o->fresh, "Do all runs again");
     command->add_flag("--list", o->is_listing, "List the cases");
     command->callback([o, &exit_code] { exit_code = run(*o); });
