@@ -238,10 +238,12 @@ TEST(Branches, TakeTheNamesOfCurves) {
 TEST(Branches, TakeTheNamesOfPointsWithinThem) {
     const Lumen y = make_y();
     BranchedLines vessel = find_branches(find_centrelines(y.distance, y.openings));
-    const auto in = [&](std::size_t b) { return vessel.point(vessel.branches[b], (vessel.branches[b].first + vessel.branches[b].last) / 2).place; };
-    const Vec3 off{0, 0, 0.9 * vessel.point(vessel.branches[0], 0).radius};   // not on the axis, but within
-    for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(branch_around(vessel, in(b) + off), b);
-    name_branches(vessel, std::map<std::string, Vec3>{{"branch_3", in(0) + off}, {"side", in(2)}, {"branch_1", in(1)}});   // names may change places
+    const auto in = [&](std::size_t b) {   // not on the axis, but within
+        const CentrelinePoint& middle = vessel.point(vessel.branches[b], (vessel.branches[b].first + vessel.branches[b].last) / 2);
+        return middle.place + Vec3{0, 0, 0.9 * middle.radius};
+    };
+    for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(branch_around(vessel, in(b)), b);
+    name_branches(vessel, std::map<std::string, Vec3>{{"branch_3", in(0)}, {"side", in(2)}, {"branch_1", in(1)}});   // names may change places
     EXPECT_EQ(vessel.branches[0].name, "branch_3");
     EXPECT_EQ(vessel.branches[1].name, "branch_1");
     EXPECT_EQ(vessel.branches[2].name, "side");
