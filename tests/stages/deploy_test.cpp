@@ -59,14 +59,14 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
 
 TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
     BranchedLines before, after;
-    const auto line = [](double y, double length) {
+    const auto straight = [](double y, double length) {
         Centreline line;
         for (int k = 0; k <= 20; ++k) line.points.push_back({{length * k / 20, y, 0}, {1, 0, 0}, 1e-3, length * k / 20});
         return line;
     };
-    before.lines = {line(0, 20e-3)};
+    before.lines = {straight(0, 20e-3)};
     before.branches = {{.name = "branch_2", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}}};
-    after.lines = {line(0, 20e-3), line(5e-3, 20e-3)};
+    after.lines = {straight(0, 20e-3), straight(5e-3, 20e-3)};
     after.branches = {{.name = "branch_1", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}}, {.name = "branch_2", .line = 1, .first = 0, .last = 20, .parent = -1, .lines = {1}}};
     EXPECT_TRUE(keep_branch_names(before, after).empty());
     EXPECT_EQ(after.branches[0].name, "branch_1");

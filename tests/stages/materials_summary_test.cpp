@@ -19,7 +19,7 @@ TEST(MaterialsSummary, OfAFlowIsTheBloods) {
     EXPECT_EQ(blood[0]["source"], "the deck");
     EXPECT_EQ(blood[0]["density_kg_per_m3"], 1060);
     EXPECT_EQ(blood[0]["viscosity_pa_s"], 3.5e-3);
-    const auto casson = materials({"blood={density: 1050 kg/m^3, law: casson, yield_stress: 5 mPa, plastic_viscosity: 3.5 mPa s, max_viscosity: 100 mPa s}"});
+    const auto casson = materials({"blood={density: 1050 kg/m^3, law: casson, yield_stress: 0.005 Pa, plastic_viscosity: 3.5 mPa s, max_viscosity: 100 mPa s}"});
     EXPECT_NEAR(casson[0]["yield_stress_mpa"].get<double>(), 5e-9, 1e-20);
 }
 
