@@ -41,7 +41,8 @@ void print_cost(const FlowCost& cost) {
 
 void print_cell_plan(const std::string& path, const CellPlan& plan) {
     fmt::print("{}: the deck is right\n", path);
-    fmt::print("  scheme               cells: a steady flow through a rigid lumen, on particles that stand still\n");
+    fmt::print("  scheme               cells: a {} flow through a rigid lumen, on particles that stand still\n", plan.steps > 0 ? "periodic" : "steady");
+    if (plan.steps > 0) fmt::print("  steps in time        {:.0f}\n", plan.steps);
     fmt::print("  spacing              {:.3g} to {:.3g} mm\n", 1e3 * plan.finest, 1e3 * plan.coarsest);
     fmt::print("  cells                about {:.3g}; {:.1f} across the narrowest place\n", plan.cells, plan.across_narrowest);
 }

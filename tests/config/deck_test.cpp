@@ -132,14 +132,16 @@ TEST(Deck, ASettingOfNullTakesAKeyAway) {
     EXPECT_EQ(parse_case(pipe_deck, "deck", "", {"numerics.nothing=null"}), parse_case(pipe_deck));
 }
 
-TEST(Deck, SteadyFlowInAVesselIsSolvedOnCellsUnlessItSaysOtherwise) {
+TEST(Deck, FlowInAStillVesselIsSolvedOnCellsUnlessItSaysOtherwise) {
     Case c = parse_case(pipe_deck);
     EXPECT_EQ(c.scheme(), SchemeName::sph);   // a shape
     c.geometry.shape.reset();
     c.geometry.network = "tube.json";
     c.about.mode = Mode::steady;
     EXPECT_EQ(c.scheme(), SchemeName::cells);
-    c.about.mode = Mode::periodic;
+    c.about.mode = Mode::periodic, c.about.period = 0.8;
+    EXPECT_EQ(c.scheme(), SchemeName::cells);
+    c.about.period.reset();   // cells go by shares of it
     EXPECT_EQ(c.scheme(), SchemeName::sph);
     c.about.mode = Mode::steady, c.wall.motion = WallMotion::deformable;
     EXPECT_EQ(c.scheme(), SchemeName::sph);

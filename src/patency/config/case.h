@@ -349,7 +349,7 @@ struct Case {
 
     /// A surface or a network, which has centrelines and an estimate; shapes have not.
     bool has_vessel() const { return geometry.surface || geometry.network; }
-    /// The deck's word; else cells where the flow is steady between walls at rest in a vessel, which they solve in a minute.
+    /// The deck's word; else cells where a steady or periodic flow passes between walls at rest in a vessel.
     SchemeName scheme() const;
     InitialVelocity initial_velocity() const {
         return initial.velocity.value_or(has_vessel() ? InitialVelocity::estimate : InitialVelocity::rest);

@@ -32,7 +32,7 @@ const Table& table_of<Numerics>() {
     static const Table table = make_table<Numerics>(
         "How it is computed.",
         {
-            row(&Numerics::scheme, {.key = "scheme", .help = "moving particles, ours or the reference paper's, or a steady flow on the cells of still ones; absent: cells for a steady flow between "
+            row(&Numerics::scheme, {.key = "scheme", .help = "moving particles, ours or the reference paper's, or a flow on the cells of still ones; absent: cells for a steady or periodic flow between "
                                     "walls at rest in a surface or network, else sph"}),
             row(&Numerics::spacing, {.key = "spacing", .help = "the distance between particles", .unit = "mm",
                                      .range = above_up_to(0, 1), .example = "0.2 mm"}),

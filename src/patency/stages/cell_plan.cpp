@@ -15,6 +15,8 @@ namespace {
 // Measured on one core: from 0.5 ms of a cell of the reference paper's bifurcation (49,000) to 1.1 ms of one of a real left tree
 // (226,000); the largest resident memory of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 869 MB with 226,000.
 constexpr double seconds_per_cell = 0.8e-3, bytes_per_cell = 3800, bytes_at_least = 120e6;
+// Six iterations of 2.5 us, of pipes of 9,000 to 12,000 cells with pressures or Windkessels behind them.
+constexpr double seconds_per_cell_and_step = 15e-6;
 constexpr double shared = 0.8;   // of the work that a second thread takes half of
 
 /// The volume over the cube of the spacing, along the centrelines; each stretch counts once.
@@ -45,13 +47,20 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
     return inside > 0 ? lumen.volume * count / inside : 0;
 }
 
+/// Of a periodic flow.
+double steps_of(const deck::Case& config) {
+    if (config.about.mode == deck::Mode::steady) return 0;
+    expect_possible(config);   // it has a period
+    return config.numerics.duration / *config.about.period * config.numerics.steps_per_period;
+}
+
 }   // namespace
 
 CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) {
     std::optional<Vessel> vessel;
     if (config.has_vessel() && !known) known = &vessel.emplace(read_vessel(config));
     const Lumen lumen = make_cell_lumen(config, known);
-    CellPlan plan{.cells = 0, .finest = config.numerics.spacing, .coarsest = config.numerics.spacing, .across_narrowest = 0, .memory = 0, .seconds = 0, .threads = threads};
+    CellPlan plan{.cells = 0, .finest = config.numerics.spacing, .coarsest = config.numerics.spacing, .across_narrowest = 0, .memory = 0, .seconds = 0, .steps = steps_of(config), .threads = threads};
     if (config.numerics.follows_vessel()) {
         const SpacingField field = make_cell_spacing(lumen, known, config.numerics);
         plan.cells = known ? count_along(*known->along, field) : count_inside(lumen, field);
@@ -62,7 +71,7 @@ CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) 
     }
     plan.across_narrowest = lumen.narrowest / plan.finest;
     plan.memory = bytes_at_least + bytes_per_cell * plan.cells;
-    plan.seconds = seconds_per_cell * plan.cells * (1 - shared + shared / threads);
+    plan.seconds = (seconds_per_cell + plan.steps * seconds_per_cell_and_step) * plan.cells * (1 - shared + shared / threads);
     return plan;
 }
 

@@ -13,10 +13,11 @@ struct CellPlan {
     double across_narrowest;   ///< cells
     double memory;             ///< bytes
     double seconds;            ///< expected on `threads` threads
+    double steps;              ///< in time; none of a steady flow
     int threads;
 };
 
-/// Of a deck of scheme cells. Throws DeckError for what a steady flow on cells cannot be, GeometryError.
+/// Of a deck of scheme cells. Throws DeckError for what a flow on cells cannot be, GeometryError.
 /// vessel: of the deck, if it was read before.
 CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* vessel = nullptr);
 
