@@ -18,7 +18,7 @@ def blocks(path):
                 yield title, rows
             title, rows = line.strip(), []
         elif words and title:
-            rows.append([float(w) for w in words])
+            rows.append([w if w == 'L' else float(w) for w in words])   # L: in cylindrical axes
     if rows:
         yield title, rows
 
@@ -34,12 +34,18 @@ def places(path):
     return nodes
 
 
+def radius(x, y, u, v, is_cylindrical):
+    if is_cylindrical:
+        return math.hypot(math.hypot(x, y) + u, v)
+    return math.hypot(x + u, y + v)
+
+
 def main(deck, results):
     nodes = places(deck)
     diameters, works, strains, volumes = [], [], None, []
     for title, rows in blocks(results):
         if title.startswith('displacements'):
-            r = [math.hypot(nodes[int(n)][0] + u, nodes[int(n)][1] + v) for n, u, v, _ in rows]
+            r = [radius(*nodes[int(n)][:2], u, v, bool(local)) for n, u, v, _, *local in rows]
             diameters.append(2 * sum(r) / len(r))
         elif 'equivalent plastic strain' in title:
             strains = {}
