@@ -49,6 +49,16 @@ TEST(CellScene, flowsAsTheDeckSays) {
     EXPECT_NEAR(double(summary["largest_speed_m_per_s"]) / (2 * speed), 1, 0.03);
 }
 
+// A bed a hundred thousand times as stiff as the tube: the level of the pressure is all its flow's.
+TEST(CellScene, flowsIntoABedThatIsStiff) {
+    const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: resistance, resistance: "2e10 Pa s/m^3", distal_pressure: "5 mmHg"})"));
+    ASSERT_TRUE(scene->solution.is_converged);
+    EXPECT_LT(scene->solution.history.size(), 100u);
+    const auto ends = scene->balance->end_states();
+    EXPECT_NEAR(ends[1].pressure, 5 * 133.322 + 2e10 * flow, 1e-3 * 2e10 * flow);
+    EXPECT_NEAR((ends[0].pressure - ends[1].pressure) / (8 * mu * speed * length / (radius * radius)), 1, 0.02);
+}
+
 // What leaves by a prescribed flow finds its own profile; what enters by a pressure is a developed one.
 TEST(CellScene, isDrawnThroughAsItIsDrivenThrough) {
     const auto scene = make_solved_scene(

@@ -284,6 +284,7 @@ struct Numerics {
     Precision precision = Precision::mixed;
     double duration = 0;                      ///< s of simulated time
     std::optional<Convergence> convergence;   ///< absent: all of the duration is run
+    int steps_per_period = 200;               ///< of a periodic flow on cells
     double advection_cfl = 0.25;              // Zhang et al. 2020, dual-criteria stepping
     double acoustic_cfl = 0.6;                // the same
     int threads = 0;                          ///< 0: all
@@ -348,13 +349,7 @@ struct Case {
     /// A surface or a network, which has centrelines and an estimate; shapes have not.
     bool has_vessel() const { return geometry.surface || geometry.network; }
     /// The deck's word; else cells where the flow is steady between walls at rest in a vessel, which they solve in a minute.
-    SchemeName scheme() const {
-        if (numerics.scheme) return *numerics.scheme;
-        const bool has_waveform = std::any_of(openings.begin(), openings.end(), [](const auto& o) { return bool(o.second.waveform); });
-        const bool is_steady = about.mode == Mode::steady && wall.motion == WallMotion::rigid && wall.velocity.empty() && !has_waveform &&
-                               body_force.x == 0 && body_force.y == 0 && body_force.z == 0;
-        return numerics.follows_vessel() || (has_vessel() && is_steady) ? SchemeName::cells : SchemeName::sph;
-    }
+    SchemeName scheme() const;
     InitialVelocity initial_velocity() const {
         return initial.velocity.value_or(has_vessel() ? InitialVelocity::estimate : InitialVelocity::rest);
     }

@@ -6,7 +6,6 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
-#include "patency/cells/point_tree.h"
 #include "patency/physics/fluid/shear_rate.h"
 
 namespace patency {
@@ -15,15 +14,18 @@ using namespace cell_terms;
 
 namespace {
 
-/// The pressure [Pa] at which the ends' flows cancel if the vessel itself resists nothing. A start from another one would
-/// fill or empty the vessel in a rush.
-double level_without_flow(std::span<const CellEnd> ends) {
-    double largest = 0, pressures = 0, conductance = 0;
+/// The pressure [Pa] at which the ends' flows cancel if the vessel itself resists nothing, those that are prescribed included. A
+/// start from another one would fill or empty the vessel in a rush.
+double level_of_ends(std::span<const CellEnd> ends) {
+    double largest = 0, pressures = 0, conductance = 0, enters = 0;
     for (const CellEnd& end : ends)
         if (end.kind == CellEnd::Kind::pressure) largest = std::max(largest, end.resistance);
     const double least = largest > 0 ? 1e-6 * largest : 1;   // of an end without a resistance: it decides
     for (const CellEnd& end : ends) {
-        if (end.kind != CellEnd::Kind::pressure) continue;
+        if (end.kind != CellEnd::Kind::pressure) {
+            enters -= end.flow;
+            continue;
+        }
         const double own = 1 / (end.resistance + least);
         pressures += own * end.pressure, conductance += own;
     }
@@ -31,7 +33,7 @@ double level_without_flow(std::span<const CellEnd> ends) {
         throw DeckError(
             "openings: all prescribe their flow, so that nothing tells the level of the pressure; give one a pressure "
             "or a resistance");
-    return pressures / conductance;
+    return (pressures + enters) / conductance;
 }
 
 /// Across a patch of an opening, by differences: row a is the gradient of velocity a [1/s].
@@ -53,7 +55,7 @@ CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span
       fluid_(fluid),
       speed_(reference_speed),
       is_newtonian_(std::holds_alternative<Newtonian>(fluid.rheology)) {
-    level_ = level_without_flow(ends);
+    level_ = level_of_ends(ends);
     const std::size_t cells = mesh.size();
     for (const double volume : mesh.volume) width_.push_back(std::cbrt(volume));
     state_.resize(cells), grad_p_.resize(cells), grad_u_.resize(cells), lack_.resize(cells);
@@ -62,11 +64,22 @@ CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span
     patch_flux_.resize(mesh.patches.size());
     profile_.resize(mesh.patches.size());
     profile_gradient_.resize(mesh.patches.size());
+    rest_.resize(mesh.patches.size()), rest_gradient_.resize(mesh.patches.size());
     ends_.resize(ends.size());
     for (std::uint32_t k = 0; k < mesh.patches.size(); ++k)
         if (const int o = mesh.patches[k].opening; o >= 0) ends_[std::size_t(o)].patches.push_back(k);
-    for (std::size_t k = 0; k < ends.size(); ++k) set_end(ends[k], ends_[k]);
+    set_ends(ends);
     make_all_gradients();
+}
+
+void CellBalance::set_ends(std::span<const CellEnd> ends) {
+    for (std::size_t k = 0; k < ends.size(); ++k) set_end(ends[k], ends_[k]);
+}
+
+void CellBalance::set_time_derivative(double rate, std::span<const Vec3> rest) {
+    rate_ = rate / speed_;
+    rate_rest_.assign(rest.begin(), rest.end());
+    for (Vec3& r : rate_rest_) r *= 1 / (speed_ * speed_);
 }
 
 void CellBalance::make_all_gradients() {
@@ -85,18 +98,28 @@ void CellBalance::set_end(const CellEnd& said, End& end) {
     end.wanted = said.flow * mesh_.depth / speed_;
     end.response = {(said.pressure - level_) / (fluid_.density * speed_ * speed_),
                     said.resistance / mesh_.depth / (fluid_.density * speed_)};
-    end.flow = end.wanted;
-    double carried = 0;
+    if (said.kind != CellEnd::Kind::pressure) end.flow = end.wanted;
+    const double per_speed = 1 / speed_;
+    const auto carried = [&](const std::vector<Vec3>& velocity) {
+        double flow = 0;
+        for (const std::uint32_t k : end.patches) flow += dot(velocity[k], mesh_.patches[k].area);
+        return flow;
+    };
     for (const std::uint32_t k : end.patches) {
         const CellPatch& patch = mesh_.patches[k];
-        profile_[k] = said.velocity ? said.velocity(patch.centroid) / speed_ : -patch.normal;
-        if (said.velocity) profile_gradient_[k] = (1 / speed_) * gradient_over(patch, said.velocity);
-        carried += dot(profile_[k], patch.area);
+        profile_[k] = said.velocity ? per_speed * said.velocity(patch.centroid) : -patch.normal;
+        if (said.velocity) profile_gradient_[k] = per_speed * gradient_over(patch, said.velocity);
+        rest_[k] = said.rest ? per_speed * said.rest(patch.centroid) : Vec3{};
+        rest_gradient_[k] = said.rest ? per_speed * gradient_over(patch, said.rest) : Mat3{};
     }
-    if (end.wanted != 0 && !(std::abs(carried) > 1e-3 * std::abs(end.wanted)))
+    const double of_profile = carried(profile_), of_rest = carried(rest_);
+    if (end.wanted != 0 && !(std::abs(of_profile) > 1e-3 * std::abs(end.wanted)))
         throw DeckError("openings: the velocity over an opening carries nothing of its flow");
-    const double to_unit = carried != 0 ? -1 / carried : 0;
-    for (const std::uint32_t k : end.patches) profile_[k] *= to_unit, profile_gradient_[k] = to_unit * profile_gradient_[k];
+    const double to_unit = of_profile != 0 ? -1 / of_profile : 0;
+    for (const std::uint32_t k : end.patches) {
+        profile_[k] *= to_unit, profile_gradient_[k] = to_unit * profile_gradient_[k];
+        rest_[k] += of_rest * profile_[k], rest_gradient_[k] += of_rest * profile_gradient_[k];
+    }
 }
 
 void CellBalance::set_fields(const CellFields& fields) {
@@ -143,7 +166,8 @@ void CellBalance::compute_cell_states(double kappa) {
     for_each_index(mesh_.size(), [&](std::size_t i) {
         const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
                           (fluid_.density * speed_);
-        state_[i] = {p_[i], u_[i], grad_p_[i], grad_u_[i], nu, sound_speed(kappa, norm(u_[i]), nu, width_[i])};
+        const double c = sound_speed(kappa, norm(u_[i]), nu, width_[i]) + rate_ * width_[i];
+        state_[i] = {p_[i], u_[i], grad_p_[i], grad_u_[i], nu, c};
     });
 }
 
@@ -205,6 +229,7 @@ void CellBalance::sum_fluxes() {
             sum.volume += patch_flux_[k].volume;
             sum.momentum += patch_flux_[k].momentum;
         }
+        if (rate_ > 0) sum.momentum += mesh_.volume[i] * (rate_ * u_[i] + rate_rest_[i]);
         lack_[i] = sum;
     });
     double through = 0, force = 0;
@@ -222,11 +247,11 @@ void CellBalance::sum_fluxes() {
         const CellState& cell = state_[patch.cell];
         return wall_viscosity(cell, patch) * norm(patch.area) * norm(wall_slope(cell, way_to(patch), patch.distance));
     });
+    if (rate_ > 0) force += sum_of(mesh_.size(), [&](std::size_t i) { return mesh_.volume[i] * norm(rate_ * u_[i] + rate_rest_[i]); });
     const double none = 1e-300;
-    volume_residual_ =
-        sum_of(mesh_.size(), [&](std::size_t i) { return std::abs(lack_[i].volume); }) / std::max(through, none);
-    momentum_residual_ =
-        sum_of(mesh_.size(), [&](std::size_t i) { return norm(lack_[i].momentum); }) / std::max(force, none);
+    scales_ = {std::max({through, least_scales_.flow, none}), std::max({force, least_scales_.force, none})};
+    volume_residual_ = sum_of(mesh_.size(), [&](std::size_t i) { return std::abs(lack_[i].volume); }) / scales_.flow;
+    momentum_residual_ = sum_of(mesh_.size(), [&](std::size_t i) { return norm(lack_[i].momentum); }) / scales_.force;
 }
 
 void CellBalance::compute_residual(double kappa) {
@@ -283,7 +308,7 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
                 m_diagonal += 1.5 * viscous;
         }
         const double slowness = signals / (2 * step.courant);
-        m_diagonal += slowness;
+        m_diagonal += slowness + rate_ * mesh_.volume[i];
         p_diagonal += step.pressure_share * slowness / (cell.c * cell.c);
         level.diagonal[i] = {float(p_diagonal), float(m_diagonal), quad(0, gradient), quad(0, divergence)};
         right[i] = quad(-lack_[i].volume, -1.0 * lack_[i].momentum);
@@ -291,16 +316,20 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
     matrix.make_coarse();
 }
 
+double CellBalance::free_change(const End& end, const CellVectors& x) const {
+    double free = 0;
+    for (const std::uint32_t k : end.patches) {
+        const CellPatch& patch = mesh_.patches[k];
+        const CellVector& z = x[patch.cell];
+        free += dot(patch.area, Vec3{z[1], z[2], z[3]}) + norm(patch.area) / state_[patch.cell].c * double(z[0]);
+    }
+    return free;
+}
+
 void CellBalance::add_openings(const CellVectors& x, CellVectors& y) const {
     for (const End& end : ends_) {
         if (end.kind == CellEnd::Kind::velocity || !(end.slope > 0 || end.enters)) continue;
-        double free = 0;
-        for (const std::uint32_t k : end.patches) {
-            const CellPatch& patch = mesh_.patches[k];
-            const CellVector& z = x[patch.cell];
-            free += dot(patch.area, Vec3{z[1], z[2], z[3]}) + norm(patch.area) / state_[patch.cell].c * double(z[0]);
-        }
-        const double pressure = end.slope * free, flow = free - end.conductance * pressure;
+        const double free = free_change(end, x), pressure = end.slope * free, flow = free - end.conductance * pressure;
         for (const std::uint32_t k : end.patches) {
             const CellPatch& patch = mesh_.patches[k];
             const Vec3 force = pressure * patch.area;
@@ -316,11 +345,18 @@ void CellBalance::add_openings(const CellVectors& x, CellVectors& y) const {
 }
 
 void CellBalance::apply(const CellVectors& change) {
+    // The pressure gradients of the next residual must see the openings' pressures that belong to the fields: behind a stiff
+    // outlet one that lags would push the blood back by all that the level moved.
+    for (End& end : ends_)
+        if (end.kind != CellEnd::Kind::velocity) end.pressure += end.slope * free_change(end, change);
     for_each_index(mesh_.size(), [&](std::size_t i) {
         p_[i] += double(change[i][0]);
         u_[i] += Vec3{change[i][1], change[i][2], change[i][3]};
     });
-    turn_ends();
+}
+
+void CellBalance::raise_end_pressures(std::span<const double> rise) {
+    for (std::size_t k = 0; k < ends_.size(); ++k) ends_[k].pressure += rise[k] / (fluid_.density * speed_ * speed_);
 }
 
 void CellBalance::turn_ends() {
@@ -336,74 +372,16 @@ void CellBalance::turn_ends() {
     if (turned) make_all_gradients();
 }
 
-std::vector<CellEndState> CellBalance::end_states() const {
-    const double scale = fluid_.density * speed_ * speed_;
-    std::vector<CellEndState> states;
-    for (const End& end : ends_) {
-        double pressure = 0, area = 0;
-        for (const std::uint32_t k : end.patches) {
-            const CellPatch& patch = mesh_.patches[k];
-            pressure += norm(patch.area) * state_[patch.cell].p_at(way_to(patch));
-            area += norm(patch.area);
-        }
-        const double mean = end.is_imposed() ? pressure / area : end.pressure;
-        states.push_back({end.flow * speed_ / mesh_.depth, level_ + scale * mean});
-    }
-    return states;
+std::vector<double> CellBalance::end_memory() const {
+    std::vector<double> memory;
+    for (const End& end : ends_) memory.insert(memory.end(), {end.flow, end.pressure, double(end.enters)});
+    return memory;
 }
 
-std::vector<Vec3> CellBalance::wall_shear_stress() const {
-    std::vector<Vec3> stress(mesh_.patches.size());
-    if (fluid_.free_slip) return stress;
-    for (std::size_t k = 0; k < stress.size(); ++k) {
-        const CellPatch& patch = mesh_.patches[k];
-        if (patch.opening != CellPatch::wall) continue;
-        const CellState& cell = state_[patch.cell];
-        const Vec3 slope = wall_slope(cell, way_to(patch), patch.distance);
-        const Vec3 along = slope - dot(slope, patch.normal) * patch.normal;
-        stress[k] = fluid_.density * speed_ * speed_ * wall_viscosity(cell, patch) * along;
-    }
-    return stress;
-}
-
-std::vector<double> CellBalance::patch_pressure() const {
-    std::vector<double> pressure;
-    for (const CellPatch& patch : mesh_.patches)
-        pressure.push_back(level_ + fluid_.density * speed_ * speed_ * state_[patch.cell].p_at(way_to(patch)));
-    return pressure;
-}
-
-CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
-    // A mean of what the cells around extrapolate: where one cell's word stopped and the next one's began, a finer mesh would
-    // see a jump of the pressure, and blow.
-    constexpr double widths = 1.5;
-    const PointTree tree(mesh_.point);
-    CellFields fields{std::vector<double>(places.size()), std::vector<Vec3>(places.size())};
-    const double largest = *std::max_element(width_.begin(), width_.end());
-    for_each_index(places.size(), [&](std::size_t n) {
-        const auto distance = [&](std::uint32_t i) { return norm(places[n] - mesh_.point[i]); };
-        std::vector<std::uint32_t> found;
-        for (double reach = 1e-2 * largest; found.empty(); reach *= 2) tree.find(places[n], reach, found);
-        const auto nearest = *std::min_element(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return distance(a) != distance(b) ? distance(a) < distance(b) : a < b;
-        });
-        const double reach = std::max(widths * width_[nearest], 1.5 * distance(nearest));
-        found.clear();
-        tree.find(places[n], reach, found);
-        std::sort(found.begin(), found.end());
-        double sum = 0, pressure = 0;
-        Vec3 velocity{};
-        for (const std::uint32_t i : found) {
-            const double q = distance(i) / reach;
-            if (q >= 1) continue;
-            const double weight = (1 - q) * (1 - q) * (1 - q) * (1 - q) * (1 + 4 * q);
-            const Vec3 d = places[n] - mesh_.point[i];
-            sum += weight, pressure += weight * state_[i].p_at(d), velocity += weight * state_[i].u_at(d);
-        }
-        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ * pressure / sum;
-        fields.velocity[n] = speed_ / sum * velocity;
-    });
-    return fields;
+void CellBalance::restore_end_memory(std::span<const double> memory) {
+    for (std::size_t k = 0; k < ends_.size(); ++k)
+        ends_[k].flow = memory[3 * k], ends_[k].pressure = memory[3 * k + 1], ends_[k].enters = memory[3 * k + 2] != 0;
+    make_all_gradients();
 }
 
 }   // namespace patency

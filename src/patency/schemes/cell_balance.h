@@ -25,6 +25,8 @@ struct CellEnd {
     Kind kind = Kind::pressure;
     /// [m/s]; of the other ends: what enters through them, scaled to the flow that does. Empty: a plug.
     std::function<Vec3(const Vec3& x)> velocity = {};
+    /// Added to it where it is imposed, less what it carries [m/s]: a profile that changes with the flow. Empty: nothing.
+    std::function<Vec3(const Vec3& x)> rest = {};
     double flow = 0;
     double pressure = 0, resistance = 0;   ///< [Pa], [Pa s/m^3]
 };
@@ -38,6 +40,11 @@ struct CellFluid {
 struct CellFields {
     std::vector<double> pressure;   ///< [Pa]
     std::vector<Vec3> velocity;     ///< [m/s]
+};
+
+/// What residuals are compared with: all that flows through, and the forces on walls and openings [1 of the balance's units].
+struct CellScales {
+    double flow = 0, force = 0;
 };
 
 /// What passes an opening.
@@ -56,6 +63,14 @@ public:
     /// The mesh must stay. Throws DeckError if no end tells the level of the pressure, or one's profile carries nothing.
     CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span<const CellEnd> ends, double reference_speed);
 
+    /// What holds at the openings from now on; of the same kinds, and above the same level of the pressure.
+    void set_ends(std::span<const CellEnd> ends);
+    /// The flow changes: du/dt = rate u + rest at the instant that is sought [1/s], [m/s^2]. A rate of zero is a steady flow.  THEORY.md (18.16)
+    void set_time_derivative(double rate, std::span<const Vec3> rest);
+    /// Residuals count by these at least: a pulse passes through nothing.
+    void set_least_scales(const CellScales& scales) { least_scales_ = scales; }
+    const CellScales& scales() const { return scales_; }
+
     void set_fields(const CellFields& fields);
     CellFields fields() const;
     void set_transport(const cell_terms::Transport& transport) { transport_ = transport; }   ///< sharp, if nothing is said
@@ -71,8 +86,15 @@ public:
     /// Adds to y = matrix x what the openings' pressures answer.                                   THEORY.md (18.14)
     void add_openings(const CellVectors& x, CellVectors& y) const;
     void apply(const CellVectors& change);
+    /// What the ends' pressures are guessed to have risen by [Pa].
+    void raise_end_pressures(std::span<const double> rise);
+    /// Ends of a pressure through which blood has begun to enter get the profile of what enters, and the other way round.
+    void turn_ends();
 
     std::vector<CellEndState> end_states() const;
+    /// What the next residual depends on beside the fields, for checkpoints: three numbers of every end.
+    std::vector<double> end_memory() const;
+    void restore_end_memory(std::span<const double> memory);
     /// Per patch, zero away from walls [Pa].                                                       THEORY.md (18.7)
     std::vector<Vec3> wall_shear_stress() const;
     std::vector<double> patch_pressure() const;   ///< per patch: what its cell extrapolates to it [Pa]
@@ -94,8 +116,8 @@ private:
         bool is_imposed() const { return kind == CellEnd::Kind::velocity || enters; }
     };
     void set_end(const CellEnd& said, End& end);
+    double free_change(const End& end, const CellVectors& x) const;   // of its free flow, by a change of the fields
     void make_all_gradients();
-    void turn_ends();
     void compute_gradients();
     void compute_cell_states(double kappa);
     void compute_open_pressures();
@@ -107,9 +129,9 @@ private:
         return patch.opening >= 0 && !ends_[std::size_t(patch.opening)].is_imposed();
     }
     /// What an opening's flow is at a patch of it, with the end's profile; and the patch's share of the flow.
-    Vec3 imposed(std::size_t k) const { return -ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_[k]; }
+    Vec3 imposed(std::size_t k) const { return rest_[k] - ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_[k]; }
     Mat3 imposed_gradient(std::size_t k) const {
-        return -ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_gradient_[k];
+        return rest_gradient_[k] - ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_gradient_[k];
     }
     double share_of(std::size_t k) const { return -dot(profile_[k], mesh_.patches[k].area); }
     Vec3 way_to(const CellPatch& patch) const { return patch.centroid - mesh_.point[patch.cell]; }
@@ -124,7 +146,12 @@ private:
     std::vector<double> width_;   // of a cell [m]
     std::vector<Vec3> profile_;   // per patch: the velocity of a flow of -1 through its end
     std::vector<Mat3> profile_gradient_;
+    std::vector<Vec3> rest_;      // per patch: what is imposed beside that, and carries nothing
+    std::vector<Mat3> rest_gradient_;
     std::vector<End> ends_;
+    double rate_ = 0;             // of the time derivative [1/m]
+    std::vector<Vec3> rate_rest_; // [1/m]
+    CellScales least_scales_, scales_;
 
     std::vector<cell_terms::CellState> state_;
     std::vector<Vec3> grad_p_;

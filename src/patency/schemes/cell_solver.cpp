@@ -8,6 +8,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/schemes/cell_krylov.h"
+#include "patency/schemes/cell_mixing.h"
 
 namespace patency {
 
@@ -100,6 +101,7 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
     double least = INFINITY;
     int cures = 0;
     StallWatch watch;
+    CellMixing mixing(5);
     FieldMean mean;   // once it is stalled and stands
     CellVectors right, change;
     const auto precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
@@ -109,7 +111,7 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
     };
     const auto fail = [&](const std::string& why) {
         return DivergedError(fmt::format(
-            "the steady flow on cells {} after {} steps: the cells lack {:.2g} of the flow and {:.2g} of the forces, "
+            "the flow on cells {} after {} steps: the cells lack {:.2g} of the flow and {:.2g} of the forces, "
             "where {:.2g} is asked for",
             why, solution.history.size(), balance.volume_residual(), balance.momentum_residual(), settings.tolerance));
     };
@@ -149,9 +151,13 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
             limit = std::max(1.0, 0.5 * courant);
             courant = limit;
             kappa *= 0.7;
+            mixing.forget();
             continue;
         }
+        if (worst < settings.mixes_below) mixing.mix(change);
+        else mixing.forget();
         balance.apply(change);
+        if (settings.ends_may_turn) balance.turn_ends();
         courant = std::min({limit, settings.growth * courant, momentum > unsteady ? first_limit : INFINITY});
     }
     throw fail("has not converged");
@@ -165,6 +171,10 @@ void append(CellSolution& solution, const CellSolution& before) {
 bool is_interrupted(const CellSolution& solution) { return !solution.is_converged && !solution.is_settled; }
 
 }   // namespace
+
+CellSolution solve_instant(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
+    return iterate(balance, matrix, settings);
+}
 
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
     constexpr double sharp_from = 1e-3;     // of what cells lack: the way there is the damped transport's

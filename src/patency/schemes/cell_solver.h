@@ -16,6 +16,8 @@ struct CellSolverSettings {
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 40;
     double krylov_tolerance = 0.1;
+    double mixes_below = 0;   ///< of what cells lack: from then on the last steps are mixed              THEORY.md (18.18)
+    bool ends_may_turn = true;   ///< between a pressure and what enters, in every step
     std::function<bool()> interrupted = {};   ///< asked after every step; true ends the run
 };
 
@@ -39,5 +41,8 @@ struct CellSolution {
 /// From the fields that the balance has: with the damped transport first, then the sharp one; where that does not come to rest, by the
 /// damped one. Throws DivergedError if it neither comes to the tolerance nor settles: what, and how far.
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings);
+
+/// With the transport and the time derivative that the balance has, to the tolerance. Throws DivergedError if it does not come there.
+CellSolution solve_instant(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings);
 
 }   // namespace patency

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "patency/bodies/fluid.h"
 #include "patency/bodies/open_end.h"
@@ -48,8 +51,13 @@ public:
     virtual ~FlowScheme() = default;
     /// One advection step from `time`, no longer than `longest` [s]. Throws DivergedError.
     virtual FlowStep step(double time, double longest) = 0;
-    /// Calls the law of the open ends' pressures once per acoustic step: end.flow is measured, end.pressure is wanted.
+    /// Calls the law of the open ends' pressures once per acoustic step, from time over dt: end.flow is measured, end.pressure is wanted.
     std::function<void(std::span<OpenEnd>, double time, double dt)> update_ends;
+    /// Between two steps: brings the ends' integrals up to date.
+    std::function<void()> settle_ends;
+    /// What the next step depends on beside particles and ends, by name, for checkpoints.
+    virtual std::map<std::string, std::vector<double>> state() const { return {}; }
+    virtual void restore(const std::map<std::string, std::vector<double>>&) {}
 
 protected:
     void update_wanted_pressures(std::span<OpenEnd> ends, double time, double dt) const {

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "patency/base/errors.h"
 #include "patency/stages/bed.h"
+#include "patency/stages/cell_build.h"
 #include "patency/stages/estimated_field.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/initial_state.h"
@@ -21,9 +23,9 @@ namespace {
 // Beside the points: what a particle may stray before it has left the domain, and what a buffer's tail needs.
 constexpr double margin_spacings = 5;
 
-double support_of(const deck::Numerics& numerics) { return 2 * numerics.smoothing_ratio * numerics.spacing; }
+double support_of(const FlowNumerics& numerics) { return 2 * numerics.smoothing_ratio * numerics.spacing; }
 
-PointsExtent extent_of(const deck::Numerics& numerics) {
+PointsExtent extent_of(const FlowNumerics& numerics) {
     const double dp = numerics.spacing, support = support_of(numerics), buffer = buffer_spacings * dp;
     return {.wall_thickness = support + 0.5 * dp, .fluid_extension = buffer, .wall_extension = buffer + support};
 }
@@ -31,6 +33,10 @@ PointsExtent extent_of(const deck::Numerics& numerics) {
 FlowNumerics make_numerics(const deck::Case& config, const Lumen& lumen) {
     FlowNumerics numerics;
     numerics.spacing = config.numerics.spacing;
+    if (config.numerics.follows_vessel()) {   // the widest there is
+        const auto wide = [](const Opening& a, const Opening& b) { return a.radius < b.radius; };
+        numerics.spacing = 2 * std::max_element(lumen.openings.begin(), lumen.openings.end(), wide)->radius / *config.numerics.across;
+    }
     numerics.smoothing_ratio = config.numerics.smoothing_ratio;
     numerics.planar = lumen.planar;
     numerics.advection_cfl = config.numerics.advection_cfl;
@@ -45,7 +51,7 @@ void make_ends(Scene& scene) {
     for (const Opening& opening : scene.lumen.openings) {
         const deck::Opening& said = scene.config.openings.at(opening.name);
         // Fewer particles do not see a section; a profile would be noise.
-        if (2 * opening.radius < 4 * dp)
+        if (2 * opening.radius < 4 * dp && !scene.config.numerics.follows_vessel())
             throw GeometryError(fmt::format("openings.{}: {:.3g} mm wide, less than 4 particles of numerics.spacing {:.3g} mm", opening.name,
                                             2e3 * opening.radius, 1e3 * dp));
         EndLaw law = make_end_law(opening, said, scene.config);
@@ -70,7 +76,7 @@ void make_ends(Scene& scene) {
 std::unique_ptr<Frame> make_frame(const Scene& scene) {
     const Lumen& lumen = scene.lumen;
     const double dp = scene.numerics.spacing;
-    const PointsExtent extent = extent_of(scene.config.numerics);
+    const PointsExtent extent = extent_of(scene.numerics);
     const double past = (lumen.openings.empty() ? 0 : extent.wall_extension) + extent.wall_thickness + margin_spacings * dp;
     Bounds box = grown(lumen.bounds, past);
     const std::array<bool, 3> periodic{lumen.period.x > 0, lumen.period.y > 0, lumen.period.z > 0};
@@ -78,7 +84,7 @@ std::unique_ptr<Frame> make_frame(const Scene& scene) {
     if (periodic[1]) box.low.y = lumen.bounds.low.y, box.high.y = lumen.bounds.high.y;
     if (periodic[2]) box.low.z = lumen.bounds.low.z, box.high.z = lumen.bounds.high.z;
     if (lumen.planar) box.low.z = -dp, box.high.z = dp;
-    return std::make_unique<Frame>(box.low, box.high, support_of(scene.config.numerics), periodic);
+    return std::make_unique<Frame>(box.low, box.high, support_of(scene.numerics), periodic);
 }
 
 /// The vessel behind the lumen and its estimate, which knows the narrowest place that nobody named.
@@ -126,7 +132,7 @@ void expect_wall_names(const Scene& scene) {
 
 void place_particles(Scene& scene) {
     const Lumen& lumen = scene.lumen;
-    const FittedPoints points = make_relaxed_points(lumen, scene.numerics.spacing, extent_of(scene.config.numerics), &scene.relax_quality);
+    const FittedPoints points = make_relaxed_points(lumen, scene.numerics.spacing, extent_of(scene.numerics), &scene.relax_quality);
     if (points.fluid.empty()) throw GeometryError("no particle fits into the lumen: numerics.spacing is too large");
 
     FluidParticles& fluid = scene.fluid;
@@ -177,6 +183,7 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
 }
 
 std::unique_ptr<Scene> build_scene(const deck::Case& config) {
+    if (config.scheme() == deck::SchemeName::cells) return build_cell_scene(config);
     auto scene = build_frame(config);
     place_particles(*scene);
     // The level at time zero, of ends through which nothing flows yet.

@@ -24,20 +24,6 @@ constexpr double coarsening = 1.6;          // of the spacing of the first solut
 constexpr double fewest_across = 6;         // of the narrowest place, in a first solution
 constexpr double coarse_tolerance = 1e-3;   // of it: less than what the coarse cells err by
 
-void expect_steady(const deck::Case& config) {
-    const std::string ask = "; scheme sph can do that";
-    if (config.about.mode != deck::Mode::steady)
-        throw DeckError("numerics.scheme: cells is for steady flows, and the case is periodic" + ask);
-    if (config.wall.motion != deck::WallMotion::rigid)
-        throw DeckError("numerics.scheme: cells is for rigid walls" + ask);
-    if (!config.wall.velocity.empty())
-        throw DeckError("numerics.scheme: cells is for walls at rest, and wall.velocity moves them" + ask);
-    if (norm(config.body_force) > 0) throw DeckError("numerics.scheme: cells knows no body_force" + ask);
-    for (const auto& [name, opening] : config.openings)
-        if (opening.waveform)
-            throw DeckError(fmt::format("openings.{}.waveform: cells is for steady flows{}", name, ask));
-}
-
 OpenEnd::Kind kind_of(const EndLaw& law) {
     return law.prescribes_flow() ? OpenEnd::Kind::velocity : OpenEnd::Kind::pressure;
 }
@@ -72,8 +58,22 @@ CellEnd make_end(const Opening& opening, const deck::Opening& said, const EndLaw
 
 }   // namespace
 
+void expect_possible(const deck::Case& config) {
+    const std::string ask = "; scheme sph can do that";
+    if (config.wall.motion != deck::WallMotion::rigid)
+        throw DeckError("numerics.scheme: cells is for rigid walls" + ask);
+    if (!config.wall.velocity.empty())
+        throw DeckError("numerics.scheme: cells is for walls at rest, and wall.velocity moves them" + ask);
+    if (norm(config.body_force) > 0) throw DeckError("numerics.scheme: cells knows no body_force" + ask);
+    if (config.about.mode == deck::Mode::periodic && !config.about.period)
+        throw DeckError("case.period: cells follow a periodic flow by shares of its period; give it");
+    for (const auto& [name, opening] : config.openings)
+        if (opening.waveform && config.about.mode == deck::Mode::steady)
+            throw DeckError(fmt::format("openings.{}.waveform: of a steady flow on cells there is none; case.mode: periodic follows it", name));
+}
+
 Lumen make_cell_lumen(const deck::Case& config, const Vessel* vessel) {
-    expect_steady(config);
+    expect_possible(config);
     return make_lumen(config, vessel);
 }
 

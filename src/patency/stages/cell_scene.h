@@ -34,7 +34,10 @@ struct CellScene {
     std::shared_ptr<const Vessel> vessel{};   ///< of a surface or a network
 };
 
-/// The lumen of a deck. Throws DeckError for what a steady flow on cells cannot be: pulses, walls that move, a body force.
+/// Throws DeckError for what a flow on cells cannot be: walls that move, a body force, a pulse in a steady flow.
+void expect_possible(const deck::Case& config);
+
+/// The lumen of a deck. Throws as expect_possible.
 Lumen make_cell_lumen(const deck::Case& config, const Vessel* vessel = nullptr);
 
 /// The spacing that `numerics.across` asks for. vessel: the deck's, followed; none of a shape.

@@ -6,31 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "patency/base/parallel.h"
+#include "patency/stages/cell_build.h"
 #include "patency/stages/material.h"
 #include "patency/stages/scene_sampling.h"
 #include "patency/stages/vessel_results.h"
 
 namespace patency {
-
-namespace {
-
-WallParts wall_parts_of(const CellScene& cells) {
-    const auto stress = cells.balance->wall_shear_stress();
-    const auto pressure = cells.balance->patch_pressure();
-    WallParts parts;
-    for (std::size_t k = 0; k < stress.size(); ++k) {
-        const CellPatch& patch = cells.mesh.patches[k];
-        if (patch.opening != CellPatch::wall) continue;
-        parts.places.position.push_back(patch.centroid);
-        parts.places.normal.push_back(patch.normal);
-        parts.area.push_back(norm(patch.area));
-        parts.flow.shear_stress.push_back(stress[k]);
-        parts.flow.pressure.push_back(pressure[k]);
-    }
-    return parts;
-}
-
-}   // namespace
 
 std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
     auto scene = std::make_unique<Scene>();
@@ -46,22 +27,9 @@ std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
     const Bounds box = grown(cells.lumen.bounds, 2 * reach);
     scene->frame = std::make_unique<Frame>(box.low, box.high, reach);
 
-    const CellFields fields = cells.balance->fields();
-    scene->fluid.resize(cells.mesh.size());
-    for (std::size_t i = 0; i < cells.mesh.size(); ++i) {
-        scene->fluid.position[i] = cells.mesh.point[i];
-        scene->fluid.velocity[i] = fields.velocity[i];
-        scene->fluid.pressure[i] = fields.pressure[i];
-        scene->fluid.volume[i] = cells.mesh.volume[i];
-    }
-    scene->wall_parts = wall_parts_of(cells);
-    const WallPlaces& wall = scene->wall_parts->places;
-    scene->wall.resize(wall.position.size());
-    for (std::size_t k = 0; k < wall.position.size(); ++k) {
-        scene->wall.position[k] = wall.position[k];
-        scene->wall.normal[k] = wall.normal[k];
-        scene->wall.depth[k] = 0;
-    }
+    place_cells(*scene, cells.mesh);
+    set_flow(*scene, cells.balance->fields());
+    scene->wall_parts = wall_parts_of(cells.mesh, *cells.balance);
     return scene;
 }
 

@@ -216,6 +216,27 @@ double moving_level(std::span<EndLaw> laws, double time, double ahead) {
 
 }  // namespace
 
+void impose_laws_ahead(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt) {
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+        if (laws[k].prescribes_flow()) continue;
+        const OutletResponse wanted = response_of(laws[k], time, dt);
+        ends[k].pressure = wanted.p0;
+        ends[k].resistance = wanted.dp_dq;
+    }
+}
+
+void advance_laws(std::span<EndLaw> laws, std::span<const OpenEnd> ends, double time) {
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+        EndLaw& law = laws[k];
+        const double dt = time - law.known_until, flow = ends[k].flow, pressure = ends[k].mean_pressure;
+        law.volume_out += 0.5 * dt * (law.known_flow + flow);
+        law.pressure_time += 0.5 * dt * (law.known_pressure + pressure);
+        if (law.outlet) law.state = advanced(*law.outlet, law.state, {law.known_until, dt}, law.known_flow, flow);
+        law.known_until = time, law.known_flow = flow, law.known_pressure = pressure;
+        law.is_started = true;
+    }
+}
+
 double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt, deck::PressureReference reference) {
     // The pressure of a kick stands in the middle of its step (THEORY.md (7.2)).
     const double ahead = 0.5 * dt;

@@ -32,6 +32,7 @@ struct EndLaw {
     // The state, kept in checkpoints.
     OutletState state{};                 ///< at time `known_until`
     double known_until = 0, known_flow = 0;   ///< [s], [m^3/s] out of the domain
+    double known_pressure = 0;           ///< at the plane then, of a scheme that integrates by trapezia [Pa]
     bool is_started = false;
     OutletState level_state{};           ///< of the same model in the network that gives the moving level
     double level_flow = 0;               ///< into it there [m^3/s]
@@ -62,6 +63,11 @@ std::function<double(double)> make_end_flow(const Opening& opening, const deck::
 /// flows makes every outlet echo into the others: with resistances r_1 and r_2 (over rho c / A) and the level at r_1,
 /// waves between two outlets grow for r_1 > r_2. So each outlet stays passive, whatever it is made of.
 double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt, deck::PressureReference reference);
+
+/// For a scheme that finds pressure and flow at the end of a step together: what holds there, dt after `time` [s].
+void impose_laws_ahead(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt);
+/// Its ends' states and integrals from when they are known to `time`, the flows there being the ends'.
+void advance_laws(std::span<EndLaw> laws, std::span<const OpenEnd> ends, double time);
 
 /// The response of a pressure-like end at `time` to the flow [m^3/s] a time `ahead` [s] later.
 OutletResponse response_of(const EndLaw& law, double time, double ahead);

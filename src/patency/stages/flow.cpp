@@ -47,6 +47,7 @@ void start_scheme(Scene& scene) {
     const auto make = scene.config.scheme() == deck::SchemeName::paper ? make_paper_scheme : make_flow_scheme;
     scene.scheme = make(is_mixed ? Precision::mixed : Precision::double_precision, domain, scene.material, scene.numerics);
     scene.scheme->update_ends = [&scene](std::span<OpenEnd>, double time, double dt) { update_ends(scene, time, dt); };
+    scene.scheme->settle_ends = [&scene] { settle(scene); };
 }
 
 void advance(Scene& scene, const FlowRun& run) {
@@ -56,7 +57,7 @@ void advance(Scene& scene, const FlowRun& run) {
         const double stop = next == run.exact_times.end() ? run.until : std::min(*next, run.until);
         const double left = stop - scene.time;
         // Two halves rather than a whole step and a crumb.
-        const bool is_crumb_ahead = left > scene.last_dt && left < 2 * scene.last_dt;
+        const bool is_crumb_ahead = left > scene.last_dt * (1 + 1e-6) && left < 2 * scene.last_dt * (1 - 1e-6);
         const double longest = is_crumb_ahead ? 0.5 * left : left;
         const FlowStep step = scene.scheme->step(scene.time, longest);
         expect_no_collapse(scene, step, longest);
@@ -64,7 +65,7 @@ void advance(Scene& scene, const FlowRun& run) {
         scene.last_dt = step.dt;
         scene.acoustic_steps += step.acoustic_steps;
         ++scene.advection_steps;
-        settle(scene);
+        scene.scheme->settle_ends();
         if (run.observe) run.observe(scene, step);
         if (run.interrupted && run.interrupted()) return;
     }

@@ -6,6 +6,7 @@
 #include "patency/config/deck.h"
 #include "patency/io/hash.h"
 #include "patency/stages/build.h"
+#include "patency/stages/cell_build.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/scene_state.h"
 
@@ -69,6 +70,7 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
     const NamedNumbers numbers = numbers_of(scene);
     for (const auto& [name, values] : numbers.reals) writer.write("scene/" + name, values);
     for (const auto& [name, values] : numbers.integers) writer.write("scene/" + name, values);
+    for (const auto& [name, values] : scene.scheme->state()) writer.write("scheme/" + name, values);
     const FlowRecorder::State state = recorder.state();
     writer.write("recorder/last_row", state.last_row);
     write_mark(writer, "recorder/row", state.row_mark);
@@ -84,14 +86,18 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
 }
 
 std::unique_ptr<Scene> read_scene(const CheckpointReader& checkpoint, const deck::Case& config) {
-    auto scene = build_frame(config);
+    const bool is_on_cells = config.scheme() == deck::SchemeName::cells;
+    auto scene = is_on_cells ? build_cell_frame(config) : build_frame(config);
     checkpoint.read(scene->fluid, "fluid");
     checkpoint.read(scene->wall, "wall");
     NamedNumbers numbers = numbers_of(*scene);   // for the names
     for (auto& [name, values] : numbers.reals) values = checkpoint.read<std::vector<double>>("scene/" + name);
     for (auto& [name, values] : numbers.integers) values = checkpoint.read<std::vector<std::int64_t>>("scene/" + name);
     restore_numbers(*scene, numbers);
-    start_scheme(*scene);
+    if (!is_on_cells) start_scheme(*scene);
+    auto state = scene->scheme->state();   // for the names
+    for (auto& [name, values] : state) values = checkpoint.read<std::vector<double>>("scheme/" + name);
+    scene->scheme->restore(state);
     return scene;
 }
 

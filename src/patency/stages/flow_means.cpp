@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,7 +35,8 @@ FlowMark mark_flow(const Scene& scene) {
     }
     const FluidParticles& fluid = scene.fluid;
     const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
-    mark.compressed = sum_of(fluid.size(), [&](std::size_t i) { return fluid.opening[i] == 0 ? fluid.volume[i] * fluid.pressure[i] : 0.0; }) / stiffness;
+    if (scene.config.scheme() != deck::SchemeName::cells)   // which compress nothing
+        mark.compressed = sum_of(fluid.size(), [&](std::size_t i) { return fluid.opening[i] == 0 ? fluid.volume[i] * fluid.pressure[i] : 0.0; }) / stiffness;
     mark.inside = std::int64_t(sum_of(fluid.size(), [&](std::size_t i) { return fluid.opening[i] == 0 ? 1.0 : 0.0; }));
     return mark;
 }
@@ -101,6 +103,10 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     summary["ffr"] = {{"lesion", nullptr},
                       {"reason", scene.config.aorta.pressure ? "a shape has no lesions" : "the deck gives no aortic pressure"}};
     summary["mass_imbalance_percent"] = mass_imbalance_percent(from, to);
+    const bool is_on_cells = scene.config.scheme() == deck::SchemeName::cells;
+    double finest = scene.numerics.spacing;
+    if (scene.spacing_at)
+        for (const Vec3& x : scene.fluid.position) finest = std::min(finest, scene.spacing_at(x));
     const BulkValues bulk = bulk_values(scene);
     summary["largest_speed_m_per_s"] = bulk.largest_speed;
     summary["mean_speed_m_per_s"] = bulk.mean_speed;
@@ -108,12 +114,18 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     summary["particles"] = {{"fluid", scene.fluid.size()},
                             {"inside", to.inside},
                             {"wall", scene.wall.size()},
-                            {"across_narrowest", scene.lumen.narrowest / scene.numerics.spacing}};
-    summary["spacing_m"] = scene.numerics.spacing;
-    summary["sound_speed_m_per_s"] = scene.material.sound_speed;
+                            {"across_narrowest", scene.lumen.narrowest / finest}};
+    summary["spacing_m"] = finest;
     summary["reference_speed_m_per_s"] = scene.numerics.reference_speed;
-    summary["acoustic_steps"] = scene.acoustic_steps;
-    summary["advection_steps"] = scene.advection_steps;
+    if (is_on_cells) {
+        summary["acoustic_steps"] = 0;
+        summary["time_steps"] = scene.advection_steps;
+        summary["iterations"] = scene.acoustic_steps;
+    } else {
+        summary["sound_speed_m_per_s"] = scene.material.sound_speed;
+        summary["acoustic_steps"] = scene.acoustic_steps;
+        summary["advection_steps"] = scene.advection_steps;
+    }
     expect_finite(summary, "");
     return summary;
 }

@@ -43,8 +43,9 @@ public:
         : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("flow")) {
         prepare();
         expect_fields();
-        say(fmt::format("{} particles of blood, {} of wall, sound speed {:.4g} m/s", scene_->fluid.size(), scene_->wall.size(),
-                        scene_->material.sound_speed));
+        if (is_on_cells()) say(fmt::format("{} cells, {} steps in a period", scene_->fluid.size(), config_.numerics.steps_per_period));
+        else say(fmt::format("{} particles of blood, {} of wall, sound speed {:.4g} m/s", scene_->fluid.size(), scene_->wall.size(),
+                             scene_->material.sound_speed));
         build_wall_ = watch_.wall(), build_cpu_ = watch_.cpu();
         steps_before_ = scene_->acoustic_steps;
     }
@@ -59,6 +60,8 @@ public:
 
 private:
     void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
+
+    bool is_on_cells() const { return config_.scheme() == deck::SchemeName::cells; }
 
     void prepare() {
         std::optional<CheckpointReader> reader;
@@ -114,7 +117,8 @@ private:
         if (stage_.progress) stage_.progress->finish(progress());
         write_results();
         write_summary(stage_.folder.file("timing.json"), make_timing());
-        say(fmt::format("done: {} acoustic steps in {:.1f} s", scene_->acoustic_steps - steps_before_, watch_.wall() - build_wall_));
+        say(fmt::format("done: {} {} in {:.1f} s", scene_->acoustic_steps - steps_before_,
+                        is_on_cells() ? "iterations" : "acoustic steps", watch_.wall() - build_wall_));
         if (!window_->is_watched() || window_->is_settled()) return Outcome::done;
         stage_.log(LogLevel::warning,
                    "the flow had not settled at the end of numerics.duration: the results are marked; give it a longer one");
@@ -250,7 +254,8 @@ private:
 }  // namespace
 
 Outcome run_flow(const deck::Case& config, const FlowStage& stage) {
-    return config.scheme() == deck::SchemeName::cells ? run_cell_flow(config, stage) : FlowJob(config, stage).run();
+    const bool is_steady_on_cells = config.scheme() == deck::SchemeName::cells && config.about.mode == deck::Mode::steady;
+    return is_steady_on_cells ? run_cell_flow(config, stage) : FlowJob(config, stage).run();
 }
 
 }  // namespace patency

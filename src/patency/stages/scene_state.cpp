@@ -34,6 +34,7 @@ void for_each_number(SceneType& scene, Visit visit) {
         visit("law_state_1", law.state[1]);
         visit("law_known_until", law.known_until);
         visit("law_known_flow", law.known_flow);
+        visit("law_known_pressure", law.known_pressure);
         visit("law_is_started", law.is_started);
         visit("law_level_state_0", law.level_state[0]);
         visit("law_level_state_1", law.level_state[1]);

@@ -129,6 +129,16 @@ std::vector<Picture> pipe_pictures(const Results& results) {
 
 // Womersley
 
+/// Mean wall shear stress along the axis, of the middle half [Pa].
+double stress_of_parts(const WallParts& parts, const StraightAxis& axis) {
+    double force = 0, area = 0;
+    for (std::size_t k = 0; k < parts.area.size(); ++k) {
+        if (std::abs(axis.axial(parts.places.position[k]) - 0.5 * axis.length) > 0.25 * axis.length) continue;
+        force += parts.area[k] * dot(parts.flow.shear_stress[k], axis.direction), area += parts.area[k];
+    }
+    return force / area;
+}
+
 void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
     const StraightAxis axis = axis_of(scene);
     const double radius = axis.outline.front().radius;
@@ -136,6 +146,12 @@ void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
     const double omega = 2 * std::numbers::pi / wave.period, gradient = wave.cosines.at(0) / axis.length;
     auto &times = data.lists["times"], &flows = data.lists["flows"], &stresses = data.lists["stresses"];
     const auto record = [&](const Scene& now, double) {
+        if (now.wall_parts) {   // cells say themselves what passes and what it does to the wall
+            times.push_back(now.time);
+            flows.push_back(-now.ends[0].flow);
+            stresses.push_back(stress_of_parts(*now.wall_parts, axis));
+            return;
+        }
         WallFit layer;
         add_wall_layer(now, axis, 1, layer);
         times.push_back(now.time);
@@ -161,7 +177,8 @@ void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
 
 std::complex<double> complex_of(const RunData& run, const std::string& name) { return {run.list(name).at(0), run.list(name).at(1)}; }
 
-void womersley_figures(const Results& results, FigureList& figures) {
+/// Bars in percent of the amplitudes.
+void add_womersley_figures(const Results& results, FigureList& figures, double flow_bar, double stress_bar) {
     const std::vector<std::string> runs = {"alpha2_8", "alpha5"};
     const auto off = [&](const std::string& run, const std::string& name) {
         return complex_of(results[run], name) / complex_of(results[run], "exact_" + name);
@@ -169,12 +186,15 @@ void womersley_figures(const Results& results, FigureList& figures) {
     const auto amplitude_error = [&](const std::string& name) {
         return [&, name] { return worst_of(runs, [&](const std::string& run) { return 100 * std::abs(std::abs(off(run, name)) - 1); }); };
     };
-    figures.add({"flow_amplitude_error_percent", "percent", Bar{2.0}}, runs, amplitude_error("flow"));
+    figures.add({"flow_amplitude_error_percent", "percent", Bar{flow_bar}}, runs, amplitude_error("flow"));
     figures.add({"flow_phase_error_deg", "deg", Bar{3.0}}, runs, [&] {
         return worst_of(runs, [&](const std::string& run) { return std::abs(std::arg(off(run, "flow"))) * 180 / std::numbers::pi; });
     });
-    figures.add({"wss_amplitude_error_percent", "percent", Bar{4.0}}, runs, amplitude_error("stress"));
+    figures.add({"wss_amplitude_error_percent", "percent", Bar{stress_bar}}, runs, amplitude_error("stress"));
 }
+
+void womersley_figures(const Results& results, FigureList& figures) { add_womersley_figures(results, figures, 2, 4); }
+void cells_womersley_figures(const Results& results, FigureList& figures) { add_womersley_figures(results, figures, 1, 2); }
 
 std::vector<Picture> womersley_pictures(const Results& results) {
     std::vector<Picture> pictures;
@@ -207,6 +227,12 @@ std::vector<VerifyCase> pipe_cases() {
          .measure = measure_womersley,
          .figures = womersley_figures,
          .pictures = womersley_pictures},
+        {.name = "cells_womersley",
+         .title = "Oscillating flow in a pipe between two pressures, on cells",
+         .is_full = {},
+         .measure = measure_womersley,
+         .figures = cells_womersley_figures,
+         .pictures = {}},
     };
 }
 

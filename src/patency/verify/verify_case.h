@@ -78,8 +78,8 @@ std::span<const VerifyCase> verification_cases();
 
 // The groups of cases, one file each.
 std::vector<VerifyCase> plane_cases();       // poiseuille, poiseuille_pressure, channel, taylor_green
-std::vector<VerifyCase> pipe_cases();        // pipe, womersley
-std::vector<VerifyCase> windkessel_cases();  // windkessel
+std::vector<VerifyCase> pipe_cases();        // pipe, womersley, cells_womersley
+std::vector<VerifyCase> windkessel_cases();  // windkessel, cells_windkessel
 std::vector<VerifyCase> operator_cases();    // lattice_operators
 std::vector<VerifyCase> nozzle_cases();      // fda_nozzle
 std::vector<VerifyCase> coronary_cases();    // coronary_bifurcation

@@ -202,7 +202,13 @@ std::vector<VerifyCase> windkessel_cases() {
              .is_full = [](const std::string& run) { return run == "pipe"; },
              .measure = measure_windkessel,
              .figures = windkessel_figures,
-             .pictures = windkessel_pictures}};
+             .pictures = windkessel_pictures},
+            {.name = "cells_windkessel",
+             .title = "A pipe and a Y of pipes with RCR outlets, on cells",
+             .is_full = [](const std::string& run) { return run == "pipe"; },
+             .measure = measure_windkessel,
+             .figures = windkessel_figures,
+             .pictures = {}}};
 }
 
 }  // namespace patency

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "patency/stages/cell_build.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "patency/base/errors.h"
+#include "patency/schemes/cell_march.h"
+#include "patency/stages/build.h"
+#include "patency/stages/cell_scene.h"
+#include "patency/stages/initial_state.h"
+#include "patency/stages/material.h"
+#include "patency/stages/waveform_of_deck.h"
+
+namespace patency {
+
+namespace {
+
+/// The steady case whose openings do what the case's do in the mean.
+deck::Case mean_of(const deck::Case& config, const Scene& scene) {
+    deck::Case mean = config;
+    mean.about.mode = deck::Mode::steady;
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) {
+        deck::Opening& opening = mean.openings.at(scene.ends[k].name);
+        const double value = opening.waveform ? scene.laws[k].signal.waveform.mean() : 0;
+        if (opening.waveform && opening.type == deck::OpeningType::pressure) opening.pressure = value;
+        if (opening.waveform && opening.type == deck::OpeningType::flow) opening.flow = value;
+        if (opening.waveform && opening.type == deck::OpeningType::velocity) opening.velocity = value / scene.ends[k].area;
+        opening.waveform.reset();
+        opening.ramp = 0;
+        if (opening.profile == deck::VelocityProfile::womersley) opening.profile = deck::VelocityProfile::parabola;
+    }
+    return mean;
+}
+
+std::vector<MarchedEnd> marched_ends(const Scene& scene, const Rheology& rheology) {
+    std::vector<MarchedEnd> ends;
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) {
+        const Opening& opening = scene.lumen.openings[k];
+        const EndLaw& law = scene.laws[k];
+        const bool is_drawn = law.prescribes_flow() && law.signal.waveform.mean() < 0;   // blood that is drawn out finds its own profile
+        // Of shear-thinning blood that of the mean shear in a parabola that reaches the reference speed.
+        const double shear = scene.numerics.reference_speed * 4 / 3 / opening.radius;
+        ends.push_back({.kind = !law.prescribes_flow() ? CellEnd::Kind::pressure : is_drawn ? CellEnd::Kind::flow : CellEnd::Kind::velocity,
+                        .section = opening.planar ? Section::planar : Section::circular,
+                        .radius = opening.radius,
+                        .viscosity = viscosity(rheology, shear) / scene.config.blood.density});
+    }
+    return ends;
+}
+
+void start_march(Scene& scene, CellMesh mesh) {
+    const Rheology rheology = make_rheology(scene.config.blood);
+    auto march = std::make_unique<CellMarch>(
+        CellMarchDomain{.mesh = std::move(mesh),
+                        .material = {scene.config.blood.density, rheology, scene.numerics.free_slip},
+                        .fluid = scene.fluid,
+                        .ends = scene.ends,
+                        .marched = marched_ends(scene, rheology),
+                        .reference_speed = scene.numerics.reference_speed,
+                        .longest_step = *scene.config.about.period / scene.config.numerics.steps_per_period});
+    const CellMarch& started = *march;
+    march->update_ends = [&scene](std::span<OpenEnd> ends, double time, double dt) { impose_laws_ahead(scene.laws, ends, time, dt); };
+    march->settle_ends = [&scene, &started] {
+        advance_laws(scene.laws, scene.ends, scene.time);
+        scene.wall_parts = wall_parts_of(started.mesh(), started.balance());
+    };
+    scene.scheme = std::move(march);
+}
+
+std::unique_ptr<Scene> build_frame_of_cells(const deck::Case& config) {
+    auto scene = build_frame(config);
+    expect_possible(config);
+    return scene;   // its reference pressure is zero: fields are in double precision
+}
+
+CellMesh place_points(Scene& scene) {
+    const deck::Numerics& numerics = scene.config.numerics;
+    const Vessel* vessel = scene.vessel ? &*scene.vessel : nullptr;
+    const CellPoints points = numerics.follows_vessel() ? make_cell_points(scene.lumen, make_cell_spacing(scene.lumen, vessel, numerics))
+                                                        : make_cell_points(scene.lumen, numerics.spacing);
+    scene.spacing_at = points.spacing_at;
+    CellMesh mesh = make_cell_mesh(points.point, points.spacing, scene.lumen);
+    place_cells(scene, mesh);
+    return mesh;
+}
+
+/// Flows and pressures that the ends start from, and compliances that these have filled.
+void start_ends(Scene& scene, std::span<const CellEndState> states) {
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        EndLaw& law = scene.laws[k];
+        scene.ends[k].flow = law.known_flow = states[k].flow;
+        scene.ends[k].mean_pressure = law.known_pressure = states[k].pressure;
+        if (law.outlet && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
+            law.state = make_steady_state(*law.outlet, states[k].flow);
+    }
+}
+
+}   // namespace
+
+WallParts wall_parts_of(const CellMesh& mesh, const CellBalance& balance) {
+    const auto stress = balance.wall_shear_stress();
+    const auto pressure = balance.patch_pressure();
+    WallParts parts;
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+        const CellPatch& patch = mesh.patches[k];
+        if (patch.opening != CellPatch::wall) continue;
+        parts.places.position.push_back(patch.centroid);
+        parts.places.normal.push_back(patch.normal);
+        parts.area.push_back(norm(patch.area));
+        parts.flow.shear_stress.push_back(stress[k]);
+        parts.flow.pressure.push_back(pressure[k]);
+    }
+    return parts;
+}
+
+void place_cells(Scene& scene, const CellMesh& mesh) {
+    scene.fluid.resize(mesh.size());
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        scene.fluid.position[i] = mesh.point[i];
+        scene.fluid.volume[i] = mesh.volume[i] / mesh.depth;
+    }
+    std::vector<const CellPatch*> feet;
+    for (const CellPatch& patch : mesh.patches)
+        if (patch.opening == CellPatch::wall) feet.push_back(&patch);
+    scene.wall.resize(feet.size());
+    for (std::size_t k = 0; k < feet.size(); ++k) {
+        scene.wall.position[k] = feet[k]->centroid;
+        scene.wall.normal[k] = feet[k]->normal;
+        scene.wall.depth[k] = 0;
+    }
+}
+
+void set_flow(Scene& scene, const CellFields& fields) {
+    for (std::size_t i = 0; i < fields.velocity.size(); ++i) {
+        scene.fluid.velocity[i] = fields.velocity[i];
+        scene.fluid.pressure[i] = fields.pressure[i];
+    }
+}
+
+std::unique_ptr<Scene> build_cell_frame(const deck::Case& config) {
+    auto scene = build_frame_of_cells(config);
+    start_march(*scene, place_points(*scene));
+    return scene;
+}
+
+std::unique_ptr<Scene> build_cell_scene(const deck::Case& config) {
+    auto scene = build_frame_of_cells(config);
+    if (config.initial.velocity) {
+        CellMesh mesh = place_points(*scene);
+        compute_initial_state(*scene);
+        start_march(*scene, std::move(mesh));
+        return scene;
+    }
+    const auto solved = make_solved_scene(mean_of(scene->config, *scene));
+    scene->spacing_at = solved->spacing_at;
+    place_cells(*scene, solved->mesh);
+    set_flow(*scene, solved->balance->fields());
+    start_ends(*scene, solved->balance->end_states());
+    start_march(*scene, solved->mesh);
+    return scene;
+}
+
+}   // namespace patency

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flow on cells in time, from a deck to its results.
+#include "patency/stages/cell_build.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <complex>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "patency/base/errors.h"
+#include "patency/config/deck.h"
+#include "patency/physics/open_ends/profile.h"
+#include "patency/stages/build.h"
+#include "patency/stages/flow.h"
+#include "patency/stages/run_flow.h"
+#include "tests/stages/results_folder.h"
+
+namespace patency {
+namespace {
+
+constexpr double radius = 2e-3, length = 6e-3, density = 1060, mu = 3.5e-3, period = 0.3, push = 15, area = std::numbers::pi * radius * radius;
+
+/// A tube between a pressure that swings and `outlet`.
+deck::Case pulsed(const std::string& outlet, const std::string& duration, const std::string& more = "") {
+    return deck::parse_case(R"(version: 1
+case: {name: pulse, mode: periodic, period: "0.3 s"}
+geometry: {shape: {type: tube, diameter: "4 mm", length: "6 mm", axis: [1, 2, -0.5]}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlet: {type: pressure, waveform: {fourier: {mean: "1 Pa", period: "0.3 s", cosines: ["15 Pa"], sines: ["0 Pa"]}}}
+  outlet: )" + outlet + R"(
+numerics: {scheme: cells, spacing: "0.5 mm", duration: ")" + duration + R"(", steps_per_period: 40}
+)" + more);
+}
+const std::string open = R"({type: pressure, pressure: "0 Pa"})";
+const std::string bed = R"({type: rcr, proximal_resistance: "1e6 Pa s/m^3", distal_resistance: "1e7 Pa s/m^3", compliance: "1e-8 m^3/Pa"})";
+
+TEST(CellMarch, FollowsAPulseThatTurns) {
+    const auto scene = build_scene(pulsed(open, "0.9 s"));
+    const double omega = 2 * std::numbers::pi / period;
+    double lowest = 0;
+    std::complex<double> seen = 0;
+    advance(*scene, {.until = 2 * period});
+    advance(*scene, {.until = 3 * period, .observe = [&](const Scene& now, const FlowStep& step) {
+                         lowest = std::min(lowest, now.ends[1].flow);
+                         seen += 2 / period * step.dt * now.ends[1].flow * std::polar(1.0, -omega * now.time);
+                     }});
+    const WomersleyMode mode(Section::circular, womersley_number(radius, omega, density, mu));
+    const std::complex<double> exact = area * radius * radius * push / length / mu * mode.mobility();
+    EXPECT_LT(lowest, -0.3 * std::abs(exact));   // it does turn
+    EXPECT_NEAR(std::abs(seen / exact), 1, 0.03);
+    EXPECT_NEAR(std::arg(seen / exact), 0, 0.03);
+    EXPECT_LT(std::abs(scene->ends[0].flow + scene->ends[1].flow), 1e-3 * std::abs(exact));
+}
+
+// What the model says of the flow that passed, integrated finely, is the pressure at the outlet.
+TEST(CellMarch, HandsItsFlowToTheModelBehindAnOutlet) {
+    const auto scene = build_scene(pulsed(bed, "0.6 s"));
+    const OutletModel model = Rcr{1e6, 1e-8, 1e7, 0};
+    OutletState state = scene->laws[1].state;
+    double flow = scene->ends[1].flow, time = 0, highest = 0;
+    advance(*scene, {.until = 2 * period, .observe = [&](const Scene& now, const FlowStep&) {
+                         state = advanced(model, state, {time, now.time - time}, flow, now.ends[1].flow);
+                         flow = now.ends[1].flow, time = now.time;
+                         const double wanted = outlet_pressure(model, state, flow);
+                         highest = std::max(highest, wanted);
+                         EXPECT_NEAR(now.ends[1].mean_pressure, wanted, 1e-3 * push);
+                     }});
+    EXPECT_GT(highest, 1);
+}
+
+// Blood is pushed before it moves: the pressure that starts a flow from rest is its inertia.
+TEST(CellMarch, StartsFromRest) {
+    deck::Case config = deck::parse_case(R"(version: 1
+case: {name: start, mode: periodic, period: "1 s"}
+geometry: {shape: {type: tube, diameter: "20 mm", length: "60 mm"}}
+blood: {density: "1060 kg/m^3", viscosity: "4 mPa s"}
+openings:
+  inlet: {type: flow, profile: plug, waveform: {fourier: {mean: "50 mL/s", period: "1 s", cosines: ["-50 mL/s"], sines: ["0 mL/s"]}}}
+  outlet: {type: rcr, proximal_resistance: "1e7 Pa s/m^3", distal_resistance: "1e8 Pa s/m^3", compliance: "1e-9 m^3/Pa", initial_pressure: "0 Pa"}
+initial: {velocity: rest}
+numerics: {scheme: cells, spacing: "2.5 mm", duration: "0.1 s", steps_per_period: 100}
+)");
+    const auto scene = build_scene(config);
+    const double section = std::numbers::pi * 1e-4;
+    advance(*scene, {.until = 0.1, .observe = [&](const Scene& now, const FlowStep&) {
+                         if (now.time < 0.05) return;
+                         const double omega = 2 * std::numbers::pi, rise = 50e-6 * omega * std::sin(omega * now.time);
+                         const double drop = now.ends[0].mean_pressure - now.ends[1].mean_pressure;
+                         EXPECT_NEAR(drop / (density * rise * 60e-3 / section), 1, 0.08) << now.time;   // friction is the rest
+                     }});
+}
+
+TEST(CellMarch, StartsFromTheSteadyFlowOfTheMeans) {
+    const auto scene = build_scene(pulsed(open, "0.3 s"));
+    const double exact = area * radius * radius * 1 / length / (8 * mu);
+    EXPECT_NEAR(scene->ends[1].flow / exact, 1, 0.05);
+    EXPECT_NEAR(scene->laws[1].known_flow, scene->ends[1].flow, 0);
+}
+
+TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
+    const deck::Case config = pulsed(bed, "0.12 s", "output: {interval: \"0.05 s\", probes: [{name: middle, point: [\"1 mm\", \"2 mm\", \"-0.5 mm\"]}]}");
+    const Folder folder;
+    const OutputFolder whole(folder.path / "whole"), out(folder.path / "parts");
+    const int threads = omp_get_max_threads();
+    ASSERT_EQ(run_flow(config, {.folder = whole}), Outcome::done);
+    int steps = 0, runs = 1;
+    while (run_flow(config, {.folder = out, .interrupted = [&] { return ++steps % 5 == 0; }}) == Outcome::interrupted)
+        omp_set_num_threads(1 + ++runs % 2);
+    omp_set_num_threads(threads);
+    EXPECT_GT(runs, 2);
+    for (const char* name : {"summary.json", "waveforms.csv", "probes.csv", "fluid.pvd"}) EXPECT_EQ(text_of(whole.file(name)), text_of(out.file(name))) << name;
+    for (int frame = 0; frame < 4; ++frame) {
+        const auto file = fmt::format("frames/fluid_{:06d}.vtp", frame);
+        EXPECT_FALSE(text_of(whole.file(file)).empty());
+        EXPECT_EQ(text_of(whole.file(file)), text_of(out.file(file))) << file;
+    }
+}
+
+TEST(RunFlow, APulseWithoutAPeriodIsRefusedOnCells) {
+    deck::Case config = pulsed(open, "0.3 s");
+    config.about.period.reset();
+    EXPECT_THROW(build_scene(config), DeckError);
+}
+
+}   // namespace
+}   // namespace patency
