@@ -3,13 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "commands.h"
 #include "deck_options.h"
 #include "solid_runner.h"
 #include "patency/stages/build.h"
 #include "patency/stages/cell_plan.h"
 #include "patency/stages/deploy_plan.h"
+#include "patency/stages/disk_plan.h"
 #include "patency/stages/plan.h"
+#include "patency/stages/stopwatch.h"
 
 namespace patency::app {
 
@@ -21,10 +25,18 @@ std::string readable_time(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-void print_resolution(double across, double memory, double seconds, int threads) {
-    fmt::print("  memory               about {:.0f} MB\n", memory / 1e6);
-    fmt::print("  expected time        about {} on {} threads\n", readable_time(seconds), threads);
-    if (across < 12) fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
+std::string readable_size(double bytes) { return bytes < 995e6 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9); }
+
+/// What a flow costs, alone.
+struct FlowCost {
+    double across, memory, seconds, disk;
+    int threads;
+};
+
+void print_cost(const FlowCost& cost) {
+    fmt::print("  memory, disk         about {}, {}\n", readable_size(cost.memory), readable_size(cost.disk));
+    fmt::print("  expected time        about {} on {} threads\n", readable_time(cost.seconds), cost.threads);
+    if (cost.across < 12) fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
 }
 
 void print_cell_plan(const std::string& path, const CellPlan& plan) {
@@ -32,11 +44,19 @@ void print_cell_plan(const std::string& path, const CellPlan& plan) {
     fmt::print("  scheme               cells: a steady flow through a rigid lumen, on particles that stand still\n");
     fmt::print("  spacing              {:.3g} to {:.3g} mm\n", 1e3 * plan.finest, 1e3 * plan.coarsest);
     fmt::print("  cells                about {:.3g}; {:.1f} across the narrowest place\n", plan.cells, plan.across_narrowest);
-    print_resolution(plan.across_narrowest, plan.memory, plan.seconds, plan.threads);
 }
 
-void print_deploy_plan(const deck::Case& config, int threads) {
-    const DeployPlan plan = plan_deploy(config, threads);
+void print_flow_plan(const std::string& path, const FlowPlan& plan) {
+    fmt::print("{}: the deck is right\n", path);
+    fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", plan.reynolds);
+    fmt::print("  largest speed        {:.3g} m/s\n", plan.speed);
+    fmt::print("  sound speed          {:.3g} m/s\n", plan.sound_speed);
+    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, {:.3g} acoustic steps in all\n", plan.advection_step, plan.acoustic_step, plan.acoustic_steps);
+    fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles, plan.wall_particles,
+               plan.across_narrowest);
+}
+
+void print_deploy_plan(const deck::Case& config, const DeployPlan& plan, int threads) {
     const StentPlace& place = plan.place;
     fmt::print("  stent                {:.4g} x {:.4g} mm, opened to {:.4g} mm, along {:.4g} to {:.4g} mm from the inlet\n", 1e3 * place.pattern.diameter,
                1e3 * place.pattern.length, 1e3 * place.diameter, 1e3 * place.start_arc(), 1e3 * place.end_arc());
@@ -53,25 +73,30 @@ void check(const DeckOptions& options) {
         fmt::print("{}: the deck is right\n", options.path);
         return print_solid_plan(config);
     }
-    const auto deployment = [&] {
-        if (config.stent) print_deploy_plan(config, options.apply_threads(config));
-    };
+    const int threads = options.apply_threads(config);
+    std::optional<Vessel> vessel;
+    const Stopwatch reading;
+    if (config.has_vessel()) vessel = read_vessel(config);
+    const double read_seconds = reading.wall();
+    const Vessel* known = vessel ? &*vessel : nullptr;
+    FlowCost cost{};
     if (config.scheme() == deck::SchemeName::cells) {
-        print_cell_plan(options.path, plan_cells(config, options.apply_threads(config)));
-        return deployment();
+        const CellPlan plan = plan_cells(config, threads, known);
+        print_cell_plan(options.path, plan);
+        cost = {plan.across_narrowest, plan.memory, plan.seconds, flow_disk(config, plan.cells, 0, known), threads};
+    } else {
+        const FlowPlan plan = plan_flow(*build_frame(config), threads);
+        print_flow_plan(options.path, plan);
+        cost = {plan.across_narrowest, plan.memory, plan.seconds, flow_disk(config, plan.fluid_particles, plan.wall_particles, known), threads};
     }
-    const auto scene = build_frame(config);
-    const FlowPlan plan = plan_flow(*scene, options.apply_threads(config));
-    fmt::print("{}: the deck is right\n", options.path);
-    fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", plan.reynolds);
-    fmt::print("  largest speed        {:.3g} m/s\n", plan.speed);
-    fmt::print("  sound speed          {:.3g} m/s\n", plan.sound_speed);
-    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, {:.3g} acoustic steps in all\n", plan.advection_step,
-               plan.acoustic_step, plan.acoustic_steps);
-    fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles,
-               plan.wall_particles, plan.across_narrowest);
-    print_resolution(plan.across_narrowest, plan.memory, plan.seconds, plan.threads);
-    deployment();
+    print_cost(cost);
+    if (!config.stent) return;
+    const DeployPlan deployment = plan_deploy(config, threads);
+    print_deploy_plan(config, deployment, threads);
+    // The flow after takes about what the flow before takes. The vessel is read once more for the stent's place, for the deployment, after
+    // it and for each estimate, as long as it was just now.
+    fmt::print("  patency run          all stages: about {}, {} on the disk\n", readable_time(2 * cost.seconds + deployment.seconds + 5 * read_seconds),
+               readable_size(2 * cost.disk + deploy_disk(config, deployment, *vessel)));
 }
 
 }  // namespace

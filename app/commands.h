@@ -22,8 +22,10 @@ void add_flow_command(CLI::App& program, ExitCode& exit_code);
 void add_deploy_command(CLI::App& program, ExitCode& exit_code);
 void add_solid_command(CLI::App& program, ExitCode& exit_code);
 void add_run_command(CLI::App& program, ExitCode& exit_code);
+void add_sweep_command(CLI::App& program, ExitCode& exit_code);
 void add_report_command(CLI::App& program, ExitCode& exit_code);
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
+void add_documents_commands(CLI::App& program, ExitCode& exit_code);
 
 }  // namespace patency::app

@@ -42,7 +42,7 @@ ExitCode run(const DeployOptions& options) {
     folder.clear();
     const Log log = make_run_log(folder, false);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
-    const ExitCode code = run_deploy_stage(config, folder, log);
+    const ExitCode code = run_deploy_stage(config, folder, Interruption(folder), log);
     if (code == ExitCode::ok || code == ExitCode::bar_missed)
         log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
     return code;

@@ -28,7 +28,7 @@ ExitCode run(const FlowOptions& options) {
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
-    const ExitCode code = run_flow_stage(config, folder, log);
+    const ExitCode code = run_flow_stage(config, folder, Interruption(folder), log);
     if (code == ExitCode::ok || code == ExitCode::bar_missed)
         log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));
     return code;

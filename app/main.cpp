@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arguments in, exit code out. Commands stand in files of their own (commands.h).
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <new>
 
 #include "commands.h"
+#include "exit_codes.h"
 
 namespace {
 
@@ -26,11 +28,16 @@ int run(int argc, char** argv) {
     app::add_deploy_command(program, exit_code);
     app::add_solid_command(program, exit_code);
     app::add_run_command(program, exit_code);
+    app::add_sweep_command(program, exit_code);
     app::add_report_command(program, exit_code);
     app::add_verify_command(program, exit_code);
     app::add_bench_command(program, exit_code);
     app::add_schema_command(program, exit_code);
     app::add_version_command(program, exit_code);
+    app::add_documents_commands(program, exit_code);
+    std::string codes = "Exit codes:";
+    for (const app::ExitMeaning& exit : app::exit_meanings()) codes += fmt::format("\n  {:<10}{}", exit.code, exit.meaning);
+    program.footer(codes);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

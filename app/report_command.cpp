@@ -3,21 +3,25 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "commands.h"
 #include "patency/io/output_folder.h"
 #include "patency/report/page.h"
+#include "patency/report/sweep.h"
 
 namespace patency::app {
 
 void add_report_command(CLI::App& program, ExitCode& exit_code) {
     CLI::App* command = program.add_subcommand("report", "make the page report.html of a folder of results again");
     const auto out = std::make_shared<std::string>();
-    command->add_option("OUT", *out, "the folder that patency flow or run wrote")->required();
+    command->add_option("OUT", *out, "the folder that patency flow, deploy, run or sweep wrote")->required();
     command->callback([out, &exit_code] {
         if (!is_output_folder(*out)) throw FileError(fmt::format("'{}' is no folder of results of this program.", *out));
-        fmt::print("{}\n", write_report(*out, PATENCY_VERSION).string());
+        if (is_sweep(*out)) write_sweep(*out, read_sweep(*out), PATENCY_VERSION);
+        else write_report(*out, PATENCY_VERSION);
+        fmt::print("{}\n", (std::filesystem::path(*out) / "report.html").string());
         exit_code = ExitCode::ok;
     });
 }

@@ -23,6 +23,7 @@
 #include "patency/report/same_places.h"
 #include "patency/stages/estimate_results.h"
 #include "patency/stages/flow_checkpoint.h"
+#include "patency/stages/materials_summary.h"
 #include "patency/stages/stent_placement.h"
 
 namespace patency::app {
@@ -38,10 +39,8 @@ struct RunOptions {
 
 using Json = nlohmann::ordered_json;
 
-/// What the tree of tubes says, with the bands of its uncertain numbers; null for a shape.
-Json estimate(const deck::Case& config, const Log& log) {
-    if (!config.has_vessel()) return nullptr;
-    const Vessel vessel = read_vessel(config);
+/// What the tree of tubes says, with the bands of its uncertain numbers.
+Json estimate(const deck::Case& config, const Vessel& vessel, const Log& log) {
     const Estimate e = estimate_flow(config, vessel);
     Json summary = estimate_summary(config, vessel, e, estimate_band(config, vessel));
     for (const auto& [name, opening] : summary["openings"].items())
@@ -68,7 +67,7 @@ std::vector<std::string> stages_of(const deck::Case& config, const std::vector<s
 /// One run of all stages, each in its folder; those that have ended are kept.
 class Run {
 public:
-    Run(const deck::Case& config, const OutputFolder& folder, const std::string& title, bool is_fresh) : config_(config), folder_(folder) {
+    Run(const deck::Case& config, const OutputFolder& folder, const std::string& title, bool is_fresh) : config_(config), folder_(folder), interruption_(folder) {
         const Json origin = origin_summary(origin_of(config, binary_hash()));
         const std::filesystem::path known = folder.file("origin.json");
         const bool goes_on = !is_fresh && std::filesystem::exists(known);
@@ -89,13 +88,13 @@ public:
         if (will_deploy) place_stent(config_, read_vessel(config_));   // a stent that cannot go there is refused before the flow
         for (const std::string& stage : stages) {
             const OutputFolder here(folder_.file(stage));
-            if (std::filesystem::exists(here.file("summary.json"))) {
+            if (has_ended(stage)) {
                 say(stage + ": done before");
                 continue;
             }
             if (stage == "deploy") here.clear();   // it has no checkpoint: one that was interrupted begins anew
             if (stages.size() > 1 || stage != "before") say(fmt::format("--- {} ---", stage));
-            const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, log_) : run_flow_stage(stage == "after" ? deck_after() : config_, here, log_);
+            const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, interruption_, log_) : run_flow_stage(stage == "after" ? deck_after() : config_, here, interruption_, log_);
             if (code != ExitCode::ok && code != ExitCode::bar_missed) return code;
         }
         return conclude();
@@ -104,6 +103,12 @@ public:
 private:
     void say(const std::string& line) const { log_(LogLevel::info, line); }
 
+    /// Its last two files are there; one that was stopped between them is ended again.
+    bool has_ended(std::string_view stage) const {
+        const std::filesystem::path folder = folder_.file(stage);
+        return std::filesystem::exists(folder / "summary.json") && std::filesystem::exists(folder / "timing.json");
+    }
+
     /// The flow after is that of the deck that the deployment wrote.
     deck::Case deck_after() const {
         const std::filesystem::path deck = folder_.file("deploy") / "case_after.yaml";
@@ -111,17 +116,35 @@ private:
         return deck::read_case(deck);
     }
 
+    /// Before and, once a stent is in, after; null for a shape, which has no tree.
+    void add_estimates(Json& summary) const {
+        summary["estimate"] = nullptr;
+        if (!config_.has_vessel()) return;
+        const Vessel vessel = read_vessel(config_);
+        summary["estimate"] = estimate(config_, vessel, log_);
+        if (!has_ended("deploy")) return;
+        const deck::Case after = deck_after();
+        summary["estimate_after"] = estimate_after_summary(config_, vessel, after, read_vessel(after));
+    }
+
+    /// Of a stent that is in, too.
+    Json materials() const {
+        deck::Case used = config_;
+        if (!has_ended("deploy")) used.stent.reset();
+        return materials_summary(used);
+    }
+
     CsvTable pullback_of(std::string_view stage) const { return read_csv(folder_.file(stage) / "pullback.csv"); }
 
     /// All results in one summary and one page. A flow that did not settle is told by the exit code, whenever it was computed.
     ExitCode conclude() const {
         Json summary{{"name", config_.about.name}}, timing = Json::object();
-        summary["estimate"] = estimate(config_, log_);
+        summary["materials"] = materials();
+        add_estimates(summary);
         ExitCode code = ExitCode::ok;
         for (const std::string_view stage : all_stages) {
-            const std::filesystem::path results = folder_.file(stage) / "summary.json";
-            if (!std::filesystem::exists(results)) continue;
-            Json part = read_summary(results), times = read_summary(folder_.file(stage) / "timing.json");
+            if (!has_ended(stage)) continue;
+            Json part = read_summary(folder_.file(stage) / "summary.json"), times = read_summary(folder_.file(stage) / "timing.json");
             if (stage == "deploy") {
                 part = Json(part["deploy"]), times = Json(times["deploy"]);
                 if (!is_quasi_static(part)) code = ExitCode::bar_missed;
@@ -141,6 +164,7 @@ private:
 
     const deck::Case& config_;
     const OutputFolder& folder_;
+    Interruption interruption_;
     Log log_ = no_log;
 };
 

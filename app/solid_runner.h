@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage of solids as a person runs it: its log, its progress line, its signals.
+// A stage of solids as a person runs it: its log, its progress line, its interruption.
 #pragma once
 
 #include "patency/base/errors.h"
@@ -8,7 +8,7 @@
 
 namespace patency::app {
 
-/// Solids of a case into a folder, on from its checkpoint unless begun afresh. SIGINT and SIGTERM leave one (130, 143). What
+/// Solids of a case into a folder, on from its checkpoint unless begun afresh. An interruption leaves one (130, 143). What
 /// throws is in the log.
 ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, std::string_view heading, bool fresh);
 

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -20,10 +18,14 @@ namespace patency::app {
 
 namespace {
 
-std::atomic<int> caught_signal{0};
-void note_signal(int signal) {
-    caught_signal = signal;
-    std::signal(signal, SIG_DFL);   // a second one ends the program at once
+void print_log(LogLevel level, std::string_view line) {
+    if (level != LogLevel::error) fmt::print(stderr, "{}\n", line);   // errors are main.cpp's to say
+}
+
+}   // namespace
+
+Log make_run_log(const OutputFolder& folder, bool goes_on) {
+    return make_tee_log(make_file_log(folder.file("log.txt"), goes_on ? LogMode::append : LogMode::begin), print_log);
 }
 
 Progress make_progress() {
@@ -35,25 +37,13 @@ Progress make_progress() {
     return Progress(print, {.style = ProgressStyle::terminal, .interval = 0.2, .width = 0, .clock = {}});
 }
 
-void print_log(LogLevel level, std::string_view line) {
-    if (level != LogLevel::error) fmt::print(stderr, "{}\n", line);   // errors are main.cpp's to say
-}
-
-}   // namespace
-
-Log make_run_log(const OutputFolder& folder, bool goes_on) {
-    return make_tee_log(make_file_log(folder.file("log.txt"), goes_on ? LogMode::append : LogMode::begin), print_log);
-}
-
 std::string binary_hash() { return hex_text(hash_file("/proc/self/exe")); }
 
 namespace {
 
-/// job(progress) between signals; what throws is in the log.
+/// job(progress); what throws is in the log.
 template <class Job>
-auto run_watched(const Log& log, Job job) {
-    std::signal(SIGINT, note_signal);
-    std::signal(SIGTERM, note_signal);
+auto run_logged(const Log& log, Job job) {
     Progress progress = make_progress();
     try {
         return job(progress);
@@ -63,17 +53,14 @@ auto run_watched(const Log& log, Job job) {
     }
 }
 
-bool is_interrupted() { return caught_signal != 0; }
-ExitCode interruption() { return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
-
 }   // namespace
 
-ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log) {
     if (!config.solids.empty()) throw DeckError("this deck has solids and no blood; compute it by patency solid");
-    const Outcome outcome = run_watched(log, [&](Progress& progress) {
-        return run_flow(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = is_interrupted, .log = log, .progress = &progress});
+    const Outcome outcome = run_logged(log, [&](Progress& progress) {
+        return run_flow(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress});
     });
-    if (outcome == Outcome::interrupted) return interruption();
+    if (outcome == Outcome::interrupted) return interruption.exit_code();
     fmt::print("{}", flow_table(read_summary(folder.file("summary.json"))));
     return outcome == Outcome::done ? ExitCode::ok : ExitCode::bar_missed;
 }
@@ -83,11 +70,11 @@ bool is_quasi_static(const nlohmann::ordered_json& deploy) {
     return !deploy["kinetic_to_internal"].is_number() || deploy["kinetic_to_internal"].get<double>() < most;
 }
 
-ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log) {
-    const bool is_done = run_watched(log, [&](Progress& progress) {
-        return run_deploy(config, {.folder = folder, .interrupted = is_interrupted, .log = log, .progress = &progress});
+ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log) {
+    const bool is_done = run_logged(log, [&](Progress& progress) {
+        return run_deploy(config, {.folder = folder, .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress});
     });
-    if (!is_done) return interruption();
+    if (!is_done) return interruption.exit_code();
     if (is_quasi_static(read_summary(folder.file("summary.json"))["deploy"])) return ExitCode::ok;
     log(LogLevel::warning, "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so that recoil, strains and "
                            "pressures are provisional; give deployment.steps more");

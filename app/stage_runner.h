@@ -1,29 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage as a person runs it: its log, its progress line, its signals, a flow's table in the end.
+// A stage as a person runs it: its log, its progress line, its interruption, a flow's table in the end.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "interruption.h"
 #include "patency/base/errors.h"
 #include "patency/base/log.h"
 #include "patency/config/case.h"
 #include "patency/io/output_folder.h"
+#include "patency/io/progress.h"
 
 namespace patency::app {
 
 /// Messages to the folder's log.txt and to the terminal; goes on with the log of an interrupted run.
 Log make_run_log(const OutputFolder& folder, bool goes_on);
 
-/// The flow of a case into a folder. SIGINT and SIGTERM end it with a checkpoint (130, 143); a flow that has not settled in its
+/// On the terminal: one line that is rewritten, or lines now and then where there is none.
+Progress make_progress();
+
+/// The flow of a case into a folder. An interruption ends it with a checkpoint (130, 143); a flow that has not settled in its
 /// duration is 6. What throws is in the log.
-ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log);
 
 /// Whether a deployment's part of summary.json tells of solids that hardly moved for what they bore; one without mechanics is.
 bool is_quasi_static(const nlohmann::ordered_json& deploy);
 
-/// The deployment of a case's stent into a folder; signals and what throws as of a flow. One that was not quasi-static is 6.
-ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Log& log);
+/// The deployment of a case's stent into a folder; interruption and what throws as of a flow. One that was not quasi-static is 6.
+ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log);
 
 /// Of the program that runs.
 std::string binary_hash();

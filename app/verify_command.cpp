@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <memory>
 
 #include "commands.h"
+#include "interruption.h"
 #include "patency/base/errors.h"
 #include "patency/io/hash.h"
 #include "patency/io/progress.h"
@@ -21,14 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-volatile std::sig_atomic_t stop_signal = 0;
-void remember_signal(int signal) { stop_signal = signal; }
-
 /// The folder of the decks: the one asked for, else beside where we stand, else in the source tree.
 fs::path find_decks(const std::string& wanted) {
     if (!wanted.empty()) return wanted;
     if (fs::exists("cases/verify")) return "cases/verify";
-    return fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
+    std::error_code error;   // an installed program has them beside it
+    const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share" / "patency" / "cases" / "verify";
+    return fs::exists(installed) ? installed : fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
 }
 
 /// A line per run; on its way it is rewritten on a terminal, and repeated every minute elsewhere.
@@ -69,7 +68,7 @@ void print_report(const CaseReport& report) {
 
 struct Options {
     std::vector<std::string> names, settings;
-    std::string level = "quick", out = "verification", decks, reference, report;
+    std::string level = "quick", out = "verification", decks, reference, report, run;
     int threads = 0;
     bool is_listing = false, fresh = false;
 };
@@ -80,19 +79,18 @@ ExitCode run(const Options& o) {
         return ExitCode::ok;
     }
     if (!o.report.empty()) {
-        write_verification_report(o.out, o.report);
+        write_verification_report(o.out, o.report, o.run);
         return ExitCode::ok;
     }
     if (o.threads > 0) omp_set_num_threads(o.threads);
-    std::signal(SIGINT, remember_signal);
-    std::signal(SIGTERM, remember_signal);
+    const Interruption interruption;
     const fs::path decks = find_decks(o.decks);
     Screen screen;
     VerifyRequest request{.names = o.names, .level = o.level == "full" ? Level::full : Level::quick, .out = o.out, .decks = decks,
                           .reference = o.reference.empty() ? decks / "../../../shared/data/reference" : fs::path(o.reference),
                           .program = hex_text(hash_file("/proc/self/exe")), .settings = o.settings, .fresh = o.fresh};
     request.report = [&](const VerifyProgress& p) { screen.show(p); };
-    request.interrupted = [] { return stop_signal != 0; };
+    request.interrupted = [&] { return interruption.is_wanted(); };
     bool all_pass = true;
     try {
         for (const CaseReport& report : run_verification(request)) {
@@ -100,8 +98,8 @@ ExitCode run(const Options& o) {
             all_pass = all_pass && report.passes();
         }
     } catch (const Error& error) {
-        if (error.code() != ExitCode::interrupted || stop_signal != SIGTERM) throw;
-        throw Error(ExitCode::terminated, error.what());
+        if (error.code() != ExitCode::interrupted) throw;
+        throw Error(interruption.exit_code(), error.what());
     }
     return all_pass ? ExitCode::ok : ExitCode::bar_missed;
 }
@@ -119,6 +117,7 @@ void add_verify_command(CLI::App& program, ExitCode& exit_code) {
     command->add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
     command->add_option("--reference", o->reference, "Folder of stored results of other programs");
     command->add_option("--report", o->report, "Write the document of the results in the folder, and run nothing");
+    command->add_option("--run", o->run, "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
     command->add_flag("--fresh", o->fresh, "Do all runs again");
     command->add_flag("--list", o->is_listing, "List the cases");
     command->callback([o, &exit_code] { exit_code = run(*o); });

@@ -64,8 +64,29 @@ TEST_F(Run, AStentOpensTheLesionAndStagesThatEndedAreKept) {
     EXPECT_GT(after, before + 0.5 * (1 - before));
     EXPECT_GT(summary["after"]["openings"]["distal"]["flow_m3_per_s"].get<double>(),   // under the name that it had
               summary["before"]["openings"]["distal"]["flow_m3_per_s"].get<double>());
+    EXPECT_EQ(summary["after"]["branches"][0]["name"], "tube");
     EXPECT_EQ(summary["deploy"]["mode"], "geometric");
+    // The estimate's bands, before and where the lesion was; without mechanics only the blood is made of something.
+    const auto band = summary["estimate"]["lesions"][0]["ffr_band"], band_after = summary["estimate_after"]["at_lesions"][0]["ffr_band"];
+    const double estimated = summary["estimate_after"]["at_lesions"][0]["ffr"];
+    EXPECT_LT(band[0], band[1]);
+    EXPECT_LE(band_after[0].get<double>(), estimated);
+    EXPECT_GE(band_after[1].get<double>(), estimated);
+    EXPECT_GT(band_after[0], band[0]);
+    ASSERT_EQ(summary["materials"].size(), 1u);
+    EXPECT_EQ(summary["materials"][0]["viscosity_pa_s"], 3.5e-3);
     EXPECT_TRUE(fs::exists(out() / "report.html"));
+
+    // What check says of the disk is right within a factor of 1.5.
+    const Result check = patency(fmt::format("check {}", deck().string()));
+    const std::size_t said = check.output.find(" MB on the disk");
+    ASSERT_NE(said, std::string::npos) << check.output;
+    const double forecast = 1e6 * std::stod(check.output.substr(check.output.rfind(' ', said - 1)));
+    double bytes = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(out()))
+        if (entry.is_regular_file()) bytes += double(entry.file_size());
+    EXPECT_LT(forecast, 1.5 * bytes);
+    EXPECT_GT(1.5 * forecast, bytes);
 
     // A run in two goes says what a run in one says.
     const std::string in_two = content(out() / "summary.json");

@@ -10,6 +10,7 @@
 #include "patency/base/errors.h"
 #include "patency/shape/distance_shapes.h"
 #include "patency/shape/exact_distance.h"
+#include "patency/shape/triangle_tree.h"
 #include "tests/shape/laws.h"
 #include "tests/shape/surfaces.h"
 
@@ -92,6 +93,18 @@ TEST(SurfaceDistance, OfABoxIsExactOutsideItsEdgesAndItsMiddle) {
         EXPECT_NEAR(is.curvature, 0, 1);   // of 1 / voxel = 9000
     }
     EXPECT_GT(faces, 1000);
+}
+
+TEST(ExactDistance, IsThatOfTheNearestOfAllTriangles) {
+    Surface mesh = make_torus_mesh(3e-3, 1e-3, 25, 9);
+    for (Vec3& x : mesh.points) x.z *= 0.01 + std::abs(x.x) / 4e-3;   // flat on one side: slivers
+    const SignedDistance exact = make_exact_distance(mesh);
+    for (const Vec3& x : random_points(grown(exact.bounds(), 1e-3), 3000)) {
+        double least = Bounds::infinity;
+        for (const auto& [a, b, c] : mesh.triangles)
+            least = std::min(least, norm(x - nearest_place(x, mesh.points[a], mesh.points[b], mesh.points[c])));
+        EXPECT_NEAR(std::abs(exact.value(x)), least, 1e-15);
+    }
 }
 
 // Also on the axis, where all triangles are equally far, and with triangles without area among them.

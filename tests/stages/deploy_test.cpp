@@ -10,6 +10,7 @@
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "patency/stages/deploy_program.h"
+#include "patency/stages/lumen_after.h"
 #include "patency/stages/vessel.h"
 #include "tests/stages/results_folder.h"
 
@@ -43,10 +44,36 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
         EXPECT_TRUE(after.openings.at(same->opening.name) == config.openings.at(o.opening.name)) << o.opening.name;
     }
     EXPECT_TRUE(vessel.along->assessment.lesions.empty());
+    // And its branches are called what they were: each has its name where it was.
+    ASSERT_EQ(vessel.along->lines.branches.size(), before.along->lines.branches.size());
+    for (const Branch& branch : before.along->lines.branches) {
+        const auto now = branch_around(vessel.along->lines, before.along->lines.point(branch, (branch.first + branch.last) / 2).place);
+        ASSERT_TRUE(now) << branch.name;
+        EXPECT_EQ(vessel.along->lines.branches[*now].name, branch.name);
+    }
     // Both files are one surface.
     const Surface stl = read_surface(folder.file("lumen_after.stl"), "mm"), vtp = read_surface(folder.file("lumen_after.vtp"), "mm");
     ASSERT_EQ(stl.triangles.size(), vtp.triangles.size());
     EXPECT_NEAR(volume(stl), volume(vtp), 1e-5 * volume(vtp));
+}
+
+TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
+    BranchedLines before, after;
+    const auto straight = [](double y, double length) {
+        Centreline line;
+        for (int k = 0; k <= 20; ++k) line.points.push_back({{length * k / 20, y, 0}, {1, 0, 0}, 1e-3, length * k / 20});
+        return line;
+    };
+    before.lines = {straight(0, 20e-3)};
+    before.branches = {{.name = "branch_2", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}}};
+    after.lines = {straight(0, 20e-3), straight(5e-3, 20e-3)};
+    after.branches = {{.name = "branch_1", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}}, {.name = "branch_2", .line = 1, .first = 0, .last = 20, .parent = -1, .lines = {1}}};
+    EXPECT_TRUE(keep_branch_names(before, after).empty());
+    EXPECT_EQ(after.branches[0].name, "branch_1");
+    before.branches[0].name = "circumflex";
+    EXPECT_EQ(keep_branch_names(before, after).size(), 1u);
+    EXPECT_EQ(after.branches[0].name, "circumflex");
+    EXPECT_EQ(after.branches[1].name, "branch_2");
 }
 
 StentPlace place_of(double cut, double crimped, double opened) {

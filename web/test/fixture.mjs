@@ -31,12 +31,14 @@ export class Fixture {
     this.flow("flow", "run/after", "aorta.pressure=93 mmHg", "geometry.lesion.diameter_stenosis_percent=27");
     const summary = read(join(out, "summary.json"));
     const { estimate, before } = summary;
+    const materials = [...summary.materials, { part: "wall", what: "coronary_wall", source: "arXiv 2511.08745", density_kg_per_m3: 1080, young_mpa: 1, poisson: 0.45 }];
+    const estimate_after = { at_lesions: [{ ffr: 0.9951, ffr_band: [0.9917, 0.9973] }] };
     const deploy = {
       mode: "balloon", arc_length_mm: before.lesions[0].throat_arc_mm + 0.4, length_mm: 11.8, minimum_diameter_mm: 2.93, minimum_stent_area_mm2: 6.74,
       expansion_index: 0.884, malapposed_percent: 2.4, largest_gap_mm: 0.113, recoil_percent: 3.1, foreshortening_percent: 1.7, dogboning_percent: 4.2,
       penetration_over_spacing: 0.08, kinetic_to_internal: 0.012, lumen: { residual_stenosis_percent: 8.1 }, stresses: { wall_von_mises_pa: { media: { p50: 61000.3, p99: 214000.7 } } },
     };
-    write(join(out, "summary.json"), { name: summary.name, estimate, before, deploy, after: read(join(out, "after", "summary.json")) });
+    write(join(out, "summary.json"), { name: summary.name, materials, estimate, estimate_after, before, deploy, after: read(join(out, "after", "summary.json")) });
     const timing = read(join(out, "timing.json"));
     write(join(out, "timing.json"), { ...timing, deploy: { wall_s: 61.5, cpu_s: 120.3 }, after: read(join(out, "after", "timing.json")) });
     writeFrames(out, before.lesions[0]);

@@ -80,14 +80,20 @@ describe("the page of a run of three parts", () => {
       assert.equal(number.value, original, number.path);
       assert.equal(number.text, expected(number, sources), number.path);
     }
-    for (const part of ["/before/lesions/0/ffr", "/after/lesions/0/ffr", "/deploy/malapposed_percent", "/after/openings/outlet_small/flow_m3_per_s"])
+    for (const part of ["/before/lesions/0/ffr", "/after/lesions/0/ffr", "/deploy/malapposed_percent", "/after/openings/outlet_small/flow_m3_per_s", "/materials/1/young_mpa", "/estimate/lesions/0/ffr_band/1", "/estimate_after/at_lesions/0/ffr_band/0"])
       assert.ok(numbers.some(({ path }) => path === part), part);
     const strays = await page.$$eval("td, .figure, .checks, .facts b", (cells) => cells.filter((cell) => {
       const copy = cell.cloneNode(true);
-      for (const known of copy.querySelectorAll("data, code, .unit, .what, .verdict")) known.remove();
+      for (const known of copy.querySelectorAll("data, code, .unit, .what, .verdict, .source")) known.remove();
       return /\d\.\d/.test(copy.textContent.replace(/3\.5 mPa s/, ""));
     }).map((cell) => cell.textContent));
     assert.deepEqual(strays, []);
+  });
+
+  it("says what everything is made of and who says so", async () => {
+    const page = await browser.open(urlOf(run));
+    const row = page.locator("#tables tr", { hasText: "coronary_wall" });
+    assert.match(await row.innerText(), /Young 1\.00 MPa.*arXiv/s);
   });
 
   it("carries summary.json and the tables as they are", async () => {
@@ -247,6 +253,25 @@ describe("pages of other results", () => {
     assert.match(await page.title(), /^READY/);
     assert.deepEqual(page.complaints, []);
     assert.ok(await page.locator("#tables td").count() > 8);
+  });
+
+  it("shows branches before and after by their names, wherever they stand in the lists", async () => {
+    const out = fixture.changed(run, "reordered", (summary) => {
+      summary.after.branches.reverse();
+      summary.after.branches[0].name = "new_one"; // and one is found in one of them only
+    });
+    const page = await browser.open(urlOf(out));
+    const { before, after } = read(join(out, "summary.json"));
+    const table = page.locator("table", { has: page.locator("caption", { hasText: /^Branches$/ }) });
+    const rows = await table.locator("tbody tr").evaluateAll((all) => all.map((row) => ({
+      name: row.querySelector("th").textContent, paths: [...row.querySelectorAll("data")].map((element) => element.dataset.path) })));
+    assert.deepEqual(rows.map(({ name }) => name), [...before.branches.map(({ name }) => name), "new_one"]);
+    for (const { name, paths } of rows)
+      for (const path of paths) {
+        const [, part, , k] = path.split("/");
+        assert.equal({ before, after }[part].branches[k].name, name);
+      }
+    assert.ok(rows[1].paths.some((path) => path.startsWith("/before/")) && rows[1].paths.some((path) => path.startsWith("/after/")));
   });
 
   it("says when a treated vessel has no lesion any more", async () => {

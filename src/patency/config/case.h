@@ -139,6 +139,7 @@ struct Geometry {   // exactly one of surface, network, shape
     std::optional<std::string> space;   ///< axes of the file's coordinates: LPS or RAS
     std::optional<std::string> inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
     std::map<std::string, std::string> names;   ///< surface: own names for openings, by the names that they are found under
+    std::map<std::string, Vec3> branches;       ///< surface: names for branches, by a point within each [m]
     std::optional<Lesion> lesion;
     Extensions extensions;
     bool operator==(const Geometry&) const = default;

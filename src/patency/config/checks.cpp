@@ -71,6 +71,9 @@ private:
             expect(g.unit.has_value() || g.network->extension() == ".json", path + "network",
                    "needs geometry.unit: only a JSON network says whether it counts in mm or in m", {path + "unit"});
         if (g.inlet) expect(g.surface.has_value(), path + "inlet", "can be chosen of a surface only; a network and a shape say it themselves");
+        expect(g.branches.empty() || g.surface, path + "branches", "can be named of a surface only; a network names its own and a shape has none");
+        for (const auto& [name, place] : g.branches)
+            expect(is_plain_name(name), path + "branches", double_quoted(shortened(name)) + " is no name; names have letters, digits, _ and -, at most 64");
         if (g.lesion) {
             expect(g.network.has_value(), path + "lesion", "can narrow a network only, not a surface or a shape");
             expect(!g.lesion->side || norm(*g.lesion->side) > 0, path + "lesion.side", "must not be zero");

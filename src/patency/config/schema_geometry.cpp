@@ -112,6 +112,8 @@ const Table& table_of<Geometry>() {
                                    .example = "\"outlet_2\""}),
             row(&Geometry::names, {.key = "names", .help = "own names for the openings of a surface, by the names or numbers that patency inspect gives them",
                                    .example = "{outlet_1: circumflex}"}),
+            row(&Geometry::branches, {.key = "branches", .help = "names for the branches of a surface, by a point within each", .unit = "mm",
+                                      .range = between(-largest_length, largest_length), .example = "{circumflex: [12 mm, -3 mm, 40 mm]}"}),
             row(&Geometry::lesion, {.key = "lesion", .help = "a stenosis that narrows a branch of the network"}),
             row(&Geometry::extensions, {.key = "extensions", .help = "straight pieces put on the openings"}),
         },

@@ -29,7 +29,8 @@ constexpr std::string_view result_files[] = {"summary.json",  "timing.json", "pu
                                              "waveforms.csv", "report.html", "log.txt",      "case.resolved.yaml",
                                              "wall.vtp",      "centreline.vtp", "cut.vtp",      "streamlines.vtp",
                                              "offenders.vtp", "energies.csv",   "lumen_after.stl", "lumen_after.vtp",
-                                             "case_after.yaml", "origin.json", "deployment.csv", "stent.csv",  "stent.vtp"};
+                                             "case_after.yaml", "origin.json", "deployment.csv", "stent.csv",  "stent.vtp",
+                                             "sweep.json", "sweep.csv"};
 
 void make_folder(const fs::path& path) {
     std::error_code error;

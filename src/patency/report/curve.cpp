@@ -18,7 +18,7 @@ struct Axis {
     double low = INFINITY, high = -INFINITY, begin, end;   ///< begin and end on the page
     void include(double v) { low = std::min(low, v), high = std::max(high, v); }
     void widen(double share) {
-        const double margin = std::max(share * (high - low), 1e-9);
+        const double margin = high > low ? share * (high - low) : std::max(share * std::abs(high), 1e-9);
         low -= margin, high += margin;
     }
     double at(double v) const { return begin + (v - low) / (high - low) * (end - begin); }
@@ -59,7 +59,8 @@ std::string draw_pullback(const PullbackPlot& plot) {
     if (!(x.high > x.low)) return {};
     if (plot.least) y.include(*plot.least);
     y.widen(0.06);
-    std::string svg = fmt::format("<svg class=\"pullback\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} along the vessel\">\n", width, height, escaped(plot.y_label));
+    if (plot.has_points) x.widen(0.03);   // none on the edge
+    std::string svg = fmt::format("<svg class=\"pullback\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height, escaped(plot.title.empty() ? plot.y_label + " along the vessel" : plot.title));
     for (const Span& span : plot.spans)
         if (span.to > x.low && span.from < x.high) {
             const double from = x.at(std::max(span.from, x.low)), to = x.at(std::min(span.to, x.high));
@@ -68,8 +69,11 @@ std::string draw_pullback(const PullbackPlot& plot) {
     svg += marks(x, y);
     for (const double level : plot.levels)
         if (y.has(level)) svg += fmt::format("<path class=\"level\" d=\"M{} {:.1f} H{}\"/>\n", left, y.at(level), width - right);
-    for (const PullbackCurve& curve : plot.curves)
+    for (const PullbackCurve& curve : plot.curves) {
         if (curve.x.size() > 1) svg += line(curve, x, y);
+        for (std::size_t k = 0; plot.has_points && k < curve.x.size(); ++k)
+            svg += fmt::format("<circle class=\"point {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", curve.style, x.at(curve.x[k]), y.at(curve.y[k]));
+    }
     svg += fmt::format("<text x=\"{:.0f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + width - right), height - 6, escaped(plot.x_label));
     svg += fmt::format("<text transform=\"translate(15 {:.0f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", 0.5 * (top + height - bottom), escaped(plot.y_label));
     return svg + "</svg>\n";

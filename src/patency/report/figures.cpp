@@ -21,7 +21,7 @@ struct Ending {
 };
 // The longest first, where one ends another.
 constexpr Ending endings[] = {
-    {"_pa_s_per_m3", {"Pa s/m³", 1, 0}}, {"_m3_per_s", as_mL_per_min}, {"_m_per_s", as_m_per_s}, {"_mm2", {"mm²", 1, 2}},
+    {"_pa_s_per_m3", {"Pa s/m³", 1, 0}}, {"_pa_s", {"mPa s", 1e3, 2}}, {"_kg_per_m3", {"kg/m³", 1, 0}}, {"_m3_per_s", as_mL_per_min}, {"_m_per_s", as_m_per_s}, {"_mm2", {"mm²", 1, 2}},
     {"_mm", as_mm},   {"_um", {"µm", 1, 1}}, {"_percent", as_percent}, {"_mpa", {"MPa", 1, 2}}, {"_pa", {"kPa", 1e-3, 2}},
     {"_atm", {"atm", 1, 1}}, {"_mmhg", {"mmHg", 1, 2}}, {"_m", {"mm", 1e3, 3}}, {"_s", {"s", 1, 4}}, {"_j", {"mJ", 1e3, 3}}, {"_n", {"N", 1, 3}},
 };

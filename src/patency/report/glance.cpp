@@ -34,8 +34,24 @@ std::string card(const std::string& label, const std::string& figure, const std:
 
 std::string note(const std::string& text) { return text.empty() ? text : "<p class=\"note\">" + text + "</p>"; }
 
-/// FFR on a scale from 0.5 to 1, the same in every report: bands, and a mark for every flow.
-std::string ffr_scale(const Results& results, const Pointers& pointers, const std::string& band) {
+/// The estimate's band of FFR behind the lesion for each flow, as pointers; empty without one.
+std::vector<std::string> ffr_bands(const Results& results, const Focus& focus) {
+    std::vector<std::string> bands(results.flows.size());
+    const Json& summary = *results.summary;
+    if (!summary.contains("estimate")) return bands;
+    const auto k = find_lesion(summary["estimate"], summary.at(Json::json_pointer(focus.lesion)));
+    if (!k) return bands;
+    const Figures figures(summary);
+    for (std::size_t n = 0; n < bands.size(); ++n) {
+        const std::string band = (results.flows[n].key == "after" ? "/estimate_after/at_lesions" : "/estimate/lesions") + step(*k) + "/ffr_band";
+        if (figures.has(band + "/0") && figures.has(band + "/1")) bands[n] = band;
+    }
+    return bands;
+}
+
+/// FFR on a scale from 0.5 to 1, the same in every report: bands, a mark for every flow, and how uncertain it is: before above the scale,
+/// after below.
+std::string ffr_scale(const Results& results, const Pointers& pointers, const std::vector<std::string>& bands) {
     constexpr double low = 0.5, width = 300, left = 10;
     const Figures figures(*results.summary);
     const auto x = [&](double ffr) { return left + (std::min(std::max(ffr, low), 1.0) - low) / (1 - low) * width; };
@@ -44,8 +60,10 @@ std::string ffr_scale(const Results& results, const Pointers& pointers, const st
         svg += fmt::format("<rect class=\"band {}\" x=\"{:.1f}\" y=\"22\" width=\"{:.1f}\" height=\"10\"/>", style, x(from), x(to) - x(from));
     for (const double tick : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0})
         svg += fmt::format("<path class=\"tick\" d=\"M{0:.1f} 32 v16\"/><text x=\"{0:.1f}\" y=\"60\" text-anchor=\"middle\">{1:.2f}</text>", x(tick), tick);
-    if (figures.has(band + "/0"))
-        svg += fmt::format("<path class=\"whisker\" d=\"M{0:.1f} 8 v-6 M{0:.1f} 5 H{1:.1f} M{1:.1f} 8 v-6\"/>", x(figures.value(band + "/0")), x(figures.value(band + "/1")));
+    for (std::size_t k = 0; k < bands.size(); ++k)
+        if (!bands[k].empty())
+            svg += fmt::format("<path class=\"whisker {0}\" d=\"M{1:.1f} {3} v-6 M{1:.1f} {4} H{2:.1f} M{2:.1f} {3} v-6\"/>", results.flows[k].key, x(figures.value(bands[k] + "/0")),
+                               x(figures.value(bands[k] + "/1")), results.flows[k].key == "after" ? 49 : 8, results.flows[k].key == "after" ? 46 : 5);
     for (std::size_t k = 0; k < pointers.size(); ++k)
         if (pointers[k] && figures.has(*pointers[k]))
             svg += fmt::format("<path class=\"mark {}\" d=\"M{:.1f} {}\"/>", results.flows[k].key, x(figures.value(*pointers[k])),
@@ -68,17 +86,18 @@ std::string ffr_card(const Results& results, const Focus& focus) {
         const std::string reason = results.flows.empty() ? "" : figures.text(results.flows.front().path + "/ffr/reason");
         return card("FFR", "<span class=\"none\">–</span>", note(reason.empty() ? "" : "No FFR: " + reason + "."), "wide");
     }
-    std::string words, band;
+    std::string words;
+    const std::vector<std::string> bands = ffr_bands(results, focus);
     for (std::size_t k = 0; k < pointers.size(); ++k) {
         const std::string here = pointers[k] ? ffr_words(figures.value(*pointers[k]), results.flows[k].key == "after") : "";
         words += here.empty() || words.empty() ? here : "; " + here;
     }
-    const Json::json_pointer place(focus.lesion);
-    if (results.summary->contains("estimate"))
-        if (const auto k = find_lesion((*results.summary)["estimate"], results.summary->at(place))) band = "/estimate/lesions" + step(*k) + "/ffr_band";
-    std::string more = ffr_scale(results, pointers, band) + note(words);
-    if (!band.empty() && figures.has(band + "/0"))
-        more += note(fmt::format("Estimate before: {} to {} for an uncertain flow, diameter and split.", figures.number(band + "/0", as_ratio), figures.number(band + "/1", as_ratio)));
+    std::string more = ffr_scale(results, pointers, bands) + note(words), ranges;
+    for (std::size_t k = 0; k < bands.size(); ++k)
+        if (!bands[k].empty())
+            ranges += fmt::format("{}{}{} to {}", ranges.empty() ? "" : ", ", results.flows[k].key == "flow" ? "" : results.flows[k].key + " ", figures.number(bands[k] + "/0", as_ratio),
+                                  figures.number(bands[k] + "/1", as_ratio));
+    if (!ranges.empty()) more += note(fmt::format("The estimate for an uncertain flow, diameter and split: {}.", ranges));
     return card("FFR behind the lesion", change(results, pointers, {"", 1, 2}), more, "wide");
 }
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "patency/io/atomic_file.h"
-#include "patency/report/figures.h"
 #include "patency/report/page_data.h"
+#include "patency/report/page_frame.h"
 #include "patency/report/page_parts.h"
 #include "patency/report/sections.h"
 
@@ -20,45 +20,30 @@ std::string json_block(const std::string& id, const std::string& text) {
     return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, safe);
 }
 
-std::string head(const Results& results) {
-    // Nothing may be fetched, sent or framed; only this page's own script and style run.
-    const std::string policy = fmt::format("default-src 'none'; script-src '{}'; style-src '{}'; img-src data: blob:; base-uri 'none'; form-action 'none'",
-                                           page_script_hash(), page_style_hash());
-    return fmt::format("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-                       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
-                       "<meta name=\"referrer\" content=\"no-referrer\">\n<link rel=\"icon\" href=\"data:,\">\n"
-                       "<title>{} – patency</title>\n<style>{}</style>\n</head>\n",
-                       policy, escaped(results.name), page_style());
-}
-
-std::string masthead(const Results& results) {
+const char* subtitle(const Results& results) {
     const bool has_before = !results.flows.empty() && results.flows.front().key == "before", has_after = !results.flows.empty() && results.flows.back().key == "after";
-    const char* what = has_before && has_after ? "Blood flow before and after a stent"
-                       : results.flows.empty() ? "The deployment of a stent"
-                       : results.has_deployment ? "Blood flow and the deployment of a stent"
-                                                : "Blood flow";
-    return fmt::format("<header class=\"masthead\"><p class=\"brand\">patency</p><div><h1>{}</h1><p class=\"subtitle\">{}</p></div>"
-                       "<p class=\"research\">Research use only</p></header>\n", escaped(results.name), what);
+    return has_before && has_after ? "Blood flow before and after a stent"
+           : results.flows.empty() ? "The deployment of a stent"
+           : results.has_deployment ? "Blood flow and the deployment of a stent"
+                                    : "Blood flow";
 }
 
 /// Where the script puts the live view; hidden without one.
 constexpr std::string_view live_section = "<section id=\"live\" hidden></section>\n";
 
-std::string footer(std::string_view version) {
-    return fmt::format("<footer><p><b>Research use only.</b> Not a medical device: no basis for treating a patient.</p>\n"
-                       "<p>FFR is the mean pressure behind a lesion over the mean aortic pressure, both absolute, at hyperaemia; it is read 15 mm behind the lesion's end "
-                       "(10 to 20 mm is usual: Nørgaard et al. 2019). The marks at 0.75 and 0.80 are usual bands, no verdict; after a stent there is no agreed limit, 0.90 is a usual aim "
-                       "(FFR-SEARCH 2021). Pressures count from the deck's zero, but for FFR. The gauge pressure ratio is a ratio of pressures above the lowest outlet's, and no FFR. WSS is the mean wall shear stress vector's length, "
-                       "TAWSS the mean of its length, OSI = ½ (1 − WSS/TAWSS).</p>\n"
-                       "<p>Made by patency {}. Every number here is one of summary.json, or a ratio of two.</p>\n<div id=\"licences\"></div></footer>\n", escaped(version));
-}
+constexpr std::string_view notes =
+    "Every number here is one of summary.json, or a ratio of two.</p>\n"
+    "<p>FFR is the mean pressure behind a lesion over the mean aortic pressure, both absolute, at hyperaemia; it is read 15 mm behind the lesion's end "
+    "(10 to 20 mm is usual: Nørgaard et al. 2019). The marks at 0.75 and 0.80 are usual bands, no verdict; after a stent there is no agreed limit, 0.90 is a usual aim "
+    "(FFR-SEARCH 2021). Pressures count from the deck's zero, but for FFR. The gauge pressure ratio is a ratio of pressures above the lowest outlet's, and no FFR. WSS is the mean wall shear stress vector's length, "
+    "TAWSS the mean of its length, OSI = ½ (1 − WSS/TAWSS).";
 
 }   // namespace
 
 std::string make_page(const Results& results, std::string_view version) {
     const PageData data = make_page_data(results);
-    std::string page = head(results) + "<body>\n" + masthead(results) + "<main>\n" + glance_section(results) + std::string(live_section) + static_section(results) + quality_section(results) +
-                       tables_section(results) + run_section(results) + "</main>\n" + footer(version);
+    std::string page = page_head(results.name) + "<body>\n" + page_masthead(results.name, subtitle(results)) + "<main>\n" + glance_section(results) + std::string(live_section) + static_section(results) + quality_section(results) +
+                       tables_section(results) + run_section(results) + "</main>\n" + page_footer(version, notes);
     page += json_block("summary", results.summary_text) + json_block("model", data.model);
     for (const Blob& blob : data.blobs) page += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", blob.id, blob.base64);
     return page + "<script>" + std::string(page_script()) + "</script>\n</body>\n</html>\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -50,20 +51,41 @@ std::string split_table(const Results& results) {
                  with_flows(results, {"Opening"}, {fmt::format("Flow, {}", flow.unit), "Share, %", "Pressure, mmHg", "Velocity, m/s"}), rows);
 }
 
+std::vector<std::string> branch_names(const Json& part) {
+    std::vector<std::string> names;
+    if (part.contains("branches"))
+        for (const Json& branch : part["branches"]) names.push_back(branch.value("name", ""));
+    return names;
+}
+
+/// Its pointer in the flow at `path`; one to nothing where the flow has no such branch.
+std::string branch_called(const Results& results, const std::string& path, const std::string& name) {
+    const auto names = branch_names(results.summary->at(Json::json_pointer(path)));
+    const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? "/none" : path + "/branches" + step(std::size_t(at - names.begin()));
+}
+
 std::string branch_table(const Results& results) {
     const Figures f(*results.summary);
-    if (!first_part(results).contains("branches")) return {};
+    std::vector<std::string> names;   // of all flows: a branch may be found in one of them only
+    for (const FlowPart& flow : results.flows)
+        for (const std::string& name : branch_names(results.part(flow)))
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (names.empty()) return {};
     std::string rows;
-    for (std::size_t k = 0; k < first_part(results)["branches"].size(); ++k) {
-        const std::string at = "/branches" + step(k), first = results.flows.front().path + at;
-        rows += table_row(cells_of(results, {f.text(first + "/name"), f.number(first + "/length_mm", as_mm)},
-                                   {[&](const std::string& path) { return f.number(path + at + "/flow_m3_per_s", as_mL_per_min); },
-                                    [&](const std::string& path) { return f.number(path + at + "/pressure_end_pa", as_mmHg); },
-                                    [&](const std::string& path) { return f.number(path + at + "/ffr_end", as_ratio); },
+    for (const std::string& name : names) {
+        std::string length = "/none";
+        for (const FlowPart& flow : results.flows)
+            if (const std::string here = branch_called(results, flow.path, name) + "/length_mm"; !f.has(length)) length = here;
+        const auto at = [&](const std::string& path, const char* key) { return branch_called(results, path, name) + key; };
+        rows += table_row(cells_of(results, {escaped(name), f.number(length, as_mm)},
+                                   {[&](const std::string& path) { return f.number(at(path, "/flow_m3_per_s"), as_mL_per_min); },
+                                    [&](const std::string& path) { return f.number(at(path, "/pressure_end_pa"), as_mmHg); },
+                                    [&](const std::string& path) { return f.number(at(path, "/ffr_end"), as_ratio); },
                                     [&](const std::string& path) {
-                                        const Json::json_pointer place(path + at + "/is_under_resolved");
+                                        const Json::json_pointer place(at(path, "/is_under_resolved"));
                                         const bool is_coarse = results.summary->contains(place) && results.summary->at(place) == true;
-                                        return f.number(path + at + "/particles_across", as_across) + (is_coarse ? " <span class=\"verdict look\">few</span>" : "");
+                                        return f.number(at(path, "/particles_across"), as_across) + (is_coarse ? " <span class=\"verdict look\">few</span>" : "");
                                     }}));
     }
     return table("Branches", with_flows(results, {"Branch", "Length, mm"}, {"Flow, mL/min", "Pressure at its end, mmHg", "FFR at its end", "Particles across"}), rows);
@@ -144,6 +166,22 @@ std::string stent_table(const Results& results) {
     return table("Deployment", {"Quantity", "Value"}, rows);
 }
 
+/// What everything is made of, and who says so.
+std::string material_table(const Results& results) {
+    const Json& summary = *results.summary;
+    if (!summary.contains("materials") || !summary["materials"].is_array()) return {};
+    const Figures f(summary);
+    std::string rows;
+    for (std::size_t k = 0; k < summary["materials"].size(); ++k) {
+        const std::string at = "/materials" + step(k);
+        std::string numbers;
+        for (const auto& [key, value] : summary["materials"][k].items())
+            if (value.is_number()) numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", escaped(words_of(key)), f.with_unit(at + step(key), measure_of(key)));
+        rows += table_row({f.text(at + "/part"), f.text(at + "/what"), numbers, "<span class=\"source\">" + f.text(at + "/source") + "</span>"});
+    }
+    return table("Materials", {"Part", "What", "Numbers", "Source"}, rows);
+}
+
 std::string run_numbers(const Results& results) {
     const Figures f(*results.summary);
     std::string rows;
@@ -192,6 +230,7 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
 std::string tables_section(const Results& results) {
     std::string tables;
     if (!results.flows.empty()) tables += lesion_table(results) + split_table(results) + branch_table(results);
+    tables += material_table(results);
     tables += "<div class=\"small-tables\">\n" + stent_table(results);
     if (!results.flows.empty()) tables += paper_table(results) + outlet_table(results) + run_numbers(results);
     tables += "</div>\n";

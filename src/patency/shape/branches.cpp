@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "patency/base/errors.h"
 #include "patency/base/parallel.h"
+#include "patency/base/text.h"
 
 namespace patency {
 
@@ -128,6 +131,33 @@ void name_branches(BranchedLines& vessel, std::span<const NamedCurve> curves) {
         const int use = ++uses[name];
         branch.name = use == 1 ? name : fmt::format("{}_{}", name, use);
     }
+}
+
+std::optional<std::size_t> branch_around(const BranchedLines& vessel, const Vec3& point) {
+    std::optional<std::size_t> found;
+    double least = 1;
+    for (std::size_t b = 0; b < vessel.branches.size(); ++b) {
+        const Branch& branch = vessel.branches[b];
+        for (std::size_t k = branch.first; k <= branch.last; ++k) {
+            const CentrelinePoint& p = vessel.point(branch, k);
+            if (const double depth = norm(p.place - point) / p.radius; depth < least) least = depth, found = b;
+        }
+    }
+    return found;
+}
+
+void name_branches(BranchedLines& vessel, const std::map<std::string, Vec3>& points) {
+    std::map<std::size_t, std::string> names;
+    for (const auto& [name, point] : points) {
+        const auto branch = branch_around(vessel, point);
+        if (!branch) throw UsageError(fmt::format("the point of '{}' lies in no branch", shortened(name)));
+        const auto [there, is_new] = names.try_emplace(*branch, name);
+        if (!is_new) throw UsageError(fmt::format("the points of '{}' and '{}' lie in the same branch", shortened(there->second), shortened(name)));
+    }
+    for (const auto& [branch, name] : names) vessel.branches[branch].name = name;
+    std::set<std::string> known;
+    for (const Branch& branch : vessel.branches)
+        if (!known.insert(branch.name).second) throw UsageError(fmt::format("two branches would be '{}'", shortened(branch.name)));
 }
 
 Vec3 normal_of(const BranchedLines& vessel) {

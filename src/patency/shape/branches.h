@@ -2,6 +2,8 @@
 // Branches and bifurcations of a vessel: which parts of its centrelines are one vessel, and where they part.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +47,13 @@ struct NamedCurve {
 /// Gives every branch the name of the curve that its points are nearest to on average, if that is within half its mean
 /// radius; a second branch along the same curve becomes NAME_2.
 void name_branches(BranchedLines& vessel, std::span<const NamedCurve> curves);
+
+/// The branch that a point lies in: whose largest spheres it is deepest in; none between branches and outside of them.
+std::optional<std::size_t> branch_around(const BranchedLines& vessel, const Vec3& point);
+
+/// Gives the branches around the points their names; the others keep theirs. Throws UsageError for a point in no branch, a branch with
+/// two names, and a name of two branches.
+void name_branches(BranchedLines& vessel, const std::map<std::string, Vec3>& points);
 
 /// The unit normal of the plane that the points of all lines are nearest to: how the vessel mostly lies.
 Vec3 normal_of(const BranchedLines& vessel);

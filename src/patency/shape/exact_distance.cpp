@@ -57,14 +57,55 @@ NearestPlace nearest_of(const std::array<Vec3, 3>& p, const Vec3& x) {
     return best;
 }
 
+/// The triangles of a leaf side by side, the last of them again to fill it.
+struct Leaf {
+    static constexpr int size = int(TriangleTree::leaf_size);
+    double a[3][size], b[3][size], c[3][size];   // corners
+
+    void set(int n, const std::array<Vec3, 3>& p) {
+        a[0][n] = p[0].x, a[1][n] = p[0].y, a[2][n] = p[0].z;
+        b[0][n] = p[1].x, b[1][n] = p[1].y, b[2][n] = p[1].z;
+        c[0][n] = p[2].x, c[1][n] = p[2].y, c[2][n] = p[2].z;
+    }
+    /// The squares of their distances from x, to round-off. Without branches, so that triangles go side by side.
+    void squares_from(const Vec3& x, double* square) const {
+        const auto dot = [](double ux, double uy, double uz, double vx, double vy, double vz) { return ux * vx + uy * vy + uz * vz; };
+        const auto inverse = [](double length) { return 1 / std::max(length, 1e-300); };
+        for (int n = 0; n < size; ++n) {
+            const double px = x.x - a[0][n], py = x.y - a[1][n], pz = x.z - a[2][n];
+            const double qx = x.x - b[0][n], qy = x.y - b[1][n], qz = x.z - b[2][n];
+            const double ux = b[0][n] - a[0][n], uy = b[1][n] - a[1][n], uz = b[2][n] - a[2][n];   // ab, ac, bc
+            const double vx = c[0][n] - a[0][n], vy = c[1][n] - a[1][n], vz = c[2][n] - a[2][n];
+            const double wx = vx - ux, wy = vy - uy, wz = vz - uz;
+            const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+            const double uu = dot(ux, uy, uz, ux, uy, uz), uv = dot(ux, uy, uz, vx, vy, vz), vv = dot(vx, vy, vz, vx, vy, vz),
+                         nn = dot(nx, ny, nz, nx, ny, nz);
+            const double pu = dot(px, py, pz, ux, uy, uz), pv = dot(px, py, pz, vx, vy, vz), pn = dot(px, py, pz, nx, ny, nz);
+            const double per_nn = inverse(nn), s = (vv * pu - uv * pv) * per_nn, t = (uu * pv - uv * pu) * per_nn;
+            const auto to_side = [&](double dx, double dy, double dz, double ex, double ey, double ez) {
+                const double along = std::min(std::max(dot(dx, dy, dz, ex, ey, ez) * inverse(dot(ex, ey, ez, ex, ey, ez)), 0.0), 1.0);
+                const double fx = dx - along * ex, fy = dy - along * ey, fz = dz - along * ez;
+                return dot(fx, fy, fz, fx, fy, fz);
+            };
+            const double to_sides = std::min(std::min(to_side(px, py, pz, ux, uy, uz), to_side(px, py, pz, vx, vy, vz)),
+                                             to_side(qx, qy, qz, wx, wy, wz));
+            const double inside = std::min(std::min(s, t), 1 - s - t);   // nothing is over a triangle without area
+            square[n] = inside > 0 && nn > 0 ? pn * pn * per_nn : to_sides;
+        }
+    }
+};
+
 /// A closed surface with the normals of its sides and corners.
 struct ExactSurface {
     Surface surface;
     TriangleTree tree;
+    std::vector<Leaf> leaves;
+    std::vector<std::uint32_t> leaf_of;   // per node of the tree
     std::vector<std::array<Vec3, 7>> normals;   // per triangle and feature; of any length
 
     explicit ExactSurface(Surface closed)
-        : surface(std::move(closed)), tree(surface), normals(surface.triangles.size()) {
+        : surface(std::move(closed)), tree(surface), leaf_of(tree.nodes().size(), 0), normals(surface.triangles.size()) {
+        make_leaves();
         std::vector<Vec3> corner(surface.points.size());
         for (std::size_t k = 0; k < normals.size(); ++k) {
             const Triangle& t = surface.triangles[k];
@@ -99,6 +140,22 @@ struct ExactSurface {
         });
     }
 
+    std::array<Vec3, 3> corners_of(std::uint32_t triangle) const {
+        const Triangle& t = surface.triangles[triangle];
+        return {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
+    }
+
+    void make_leaves() {
+        for (std::size_t k = 0; k < tree.nodes().size(); ++k) {
+            const TriangleTree::Node& node = tree.nodes()[k];
+            if (!node.is_leaf()) continue;
+            leaf_of[k] = std::uint32_t(leaves.size());
+            Leaf& leaf = leaves.emplace_back();
+            for (int n = 0; n < Leaf::size; ++n)
+                leaf.set(n, corners_of(tree.order()[std::min(node.begin + std::uint32_t(n), node.end - 1)]));
+        }
+    }
+
     std::pair<std::uint32_t, NearestPlace> nearest(const Vec3& x) const {
         const auto& nodes = tree.nodes();
         std::uint32_t triangle = 0;
@@ -118,10 +175,12 @@ struct ExactSurface {
                 waiting[count++] = farther, waiting[count++] = nearer;
                 continue;
             }
+            constexpr double round_off = 1e-9;   // a hundred thousand times that of both squares
+            double square_of[Leaf::size];
+            leaves[leaf_of[index]].squares_from(x, square_of);
             for (std::uint32_t k = node.begin; k < node.end; ++k) {
-                const Triangle& t = surface.triangles[tree.order()[k]];
-                const NearestPlace next =
-                    nearest_of({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]}, x);
+                if (square_of[k - node.begin] > least * (1 + round_off)) continue;
+                const NearestPlace next = nearest_of(corners_of(tree.order()[k]), x);
                 const Vec3 d = x - next.place;
                 if (dot(d, d) < least) least = dot(d, d), best = next, triangle = tree.order()[k];
             }

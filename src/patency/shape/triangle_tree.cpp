@@ -9,7 +9,6 @@ namespace patency {
 
 namespace {
 
-constexpr std::uint32_t leaf_size = 4;   // fewer make the tree deep, more are compared in vain
 
 Vec3 middle_of(const Bounds& box) { return 0.5 * (box.low + box.high); }
 

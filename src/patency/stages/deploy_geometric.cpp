@@ -57,7 +57,6 @@ void deploy_geometrically(const deck::Case& config, const DeployStage& stage) {
     Surface surface = refined_around(before.checked.surface, place, morph);
     morph_surface(surface, place.axis, morph);
     Vessel after = write_lumen_after(config, before, surface, stage.folder);
-    follow_vessel(after);
     const LumenGain gain = lumen_gain(place, *before.along, after);
 
     const StrutCurves opened = make_strut_curves(at_diameter(place.pattern, place.diameter));

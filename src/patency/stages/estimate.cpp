@@ -159,7 +159,29 @@ Estimate estimate_flow(const deck::Case& given, const Vessel& vessel, const Esti
     return e;
 }
 
-EstimateBand estimate_band(const deck::Case& config, const Vessel& vessel) {
+std::vector<Vec3> reading_places(const Estimate& estimate, const VesselAlong& along) {
+    std::vector<Vec3> places;
+    for (const EstimatedLesion& lesion : estimate.lesions) {
+        const auto& points = along.lines.lines[along.assessment.lesions[lesion.number].line].points;
+        const auto at = std::lower_bound(points.begin(), points.end(), lesion.read_arc, [](const CentrelinePoint& p, double arc) { return p.arc < arc; });
+        places.push_back(at == points.end() ? points.back().place : at->place);
+    }
+    return places;
+}
+
+std::optional<double> ffr_near(const Estimate& e, const VesselAlong& along, const Vec3& place) {
+    std::optional<double> ffr;
+    double least = Bounds::infinity;
+    for (std::size_t b = 0; b < e.tree.branches.size(); ++b) {
+        const std::size_t stations = e.tree.branches[b].arc.size();   // the branch's points, and its bifurcation's before them
+        const Branch& branch = along.lines.branches[b];
+        for (std::size_t k = 0; k < stations; ++k)
+            if (const double away = norm(along.lines.point(branch, branch.last + 1 - stations + k).place - place); away < least) least = away, ffr = e.ffr(b, k);
+    }
+    return ffr;
+}
+
+EstimateBand estimate_band(const deck::Case& config, const Vessel& vessel, std::span<const Vec3> places) {
     EstimateBand band;
     const auto widen = [](std::vector<Band>& bands, std::size_t k, double value) {
         if (bands.size() <= k) bands.push_back({value, value});
@@ -171,6 +193,8 @@ EstimateBand estimate_band(const deck::Case& config, const Vessel& vessel) {
                 const Estimate e = estimate_flow(config, vessel, {flow, diameter, exponent});
                 for (std::size_t k = 0; k < e.lesions.size(); ++k)
                     if (e.lesions[k].ffr) widen(band.lesion_ffr, k, *e.lesions[k].ffr);
+                for (std::size_t k = 0; k < places.size(); ++k)
+                    if (const auto ffr = ffr_near(e, *vessel.along, places[k])) widen(band.place_ffr, k, *ffr);
                 for (std::size_t k = 0; k < e.opening_flows.size(); ++k)
                     widen(band.opening_flows, k, e.opening_flows[k]);
             }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,11 @@ struct Estimate {
 /// pressure open; GeometryError if no flow agrees.
 Estimate estimate_flow(const deck::Case& config, const Vessel& vessel, const EstimateChange& change = {});
 
+/// Where a vessel's lesions have their FFR read, in space [m], one for each of the estimate's.
+std::vector<Vec3> reading_places(const Estimate& estimate, const VesselAlong& along);
+/// At the station nearest to a place, which may be another vessel's; none without an aortic pressure.
+std::optional<double> ffr_near(const Estimate& estimate, const VesselAlong& along, const Vec3& place);
+
 /// The smallest and the largest of a number over the changes.
 struct Band {
     double low, high;
@@ -52,8 +58,10 @@ struct Band {
 struct EstimateBand {
     std::vector<Band> lesion_ffr;      ///< as Estimate::lesions; empty without an aortic pressure
     std::vector<Band> opening_flows;   ///< as Estimate::opening_flows [m^3/s]
+    std::vector<Band> place_ffr;       ///< as the places; empty without an aortic pressure
 };
-/// Flow and lumen a tenth and a tenth of a millimetre up and down, Murray's exponent by a half, every combination.
-EstimateBand estimate_band(const deck::Case& config, const Vessel& vessel);
+/// Flow and lumen a tenth and a tenth of a millimetre up and down, Murray's exponent by a half, every combination. `places`: where else
+/// FFR is read.
+EstimateBand estimate_band(const deck::Case& config, const Vessel& vessel, std::span<const Vec3> places = {});
 
 }   // namespace patency

@@ -75,6 +75,23 @@ Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Esti
     return summary;
 }
 
+Json estimate_after_summary(const deck::Case& before, const Vessel& vessel_before, const deck::Case& after, const Vessel& vessel_after) {
+    const VesselAlong& along = vessel_before.along.value();
+    const Estimate estimate_before = estimate_flow(before, vessel_before), estimate = estimate_flow(after, vessel_after);
+    const std::vector<Vec3> places = reading_places(estimate_before, along);
+    const EstimateBand band = estimate_band(after, vessel_after, places);
+    Json summary = estimate_summary(after, vessel_after, estimate, band), at_lesions = Json::array();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const EstimatedLesion& lesion = estimate_before.lesions[k];
+        at_lesions.push_back({{"branch", along.lines.branches[along.assessment.lesions[lesion.number].branch].name},
+                              {"read_arc_mm", 1e3 * lesion.read_arc},
+                              {"ffr", or_null(ffr_near(estimate, *vessel_after.along, places[k]))}});
+        if (!band.place_ffr.empty()) at_lesions.back()["ffr_band"] = band_of(band.place_ffr[k]);
+    }
+    summary["at_lesions"] = at_lesions;
+    return summary;
+}
+
 Pullback estimate_pullback(const Vessel& vessel, const Estimate& e) {
     Pullback p{{"arc_m", "outlet", "area_m2", "flow_m3_per_s", "pressure_pa"}, {}};
     if (e.aortic_pressure) p.columns.push_back("ffr");

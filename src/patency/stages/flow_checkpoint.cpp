@@ -45,12 +45,20 @@ void write_window(CheckpointWriter& writer, const FlowWindow::State& state) {
 CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_hash) {
     deck::Case alike = config;
     alike.numerics.threads = 0;
-    CheckpointOrigin origin{.deck_hash = hex_text(hash_bytes(deck::format_case(alike))), .binary_hash = binary_hash, .input_hashes = {}};
-    const auto add = [&](const std::filesystem::path& file) { origin.input_hashes[file.filename().string()] = hex_text(hash_file(file)); };
-    if (config.geometry.surface) add(*config.geometry.surface);
-    if (config.geometry.network) add(*config.geometry.network);
-    for (const auto& [name, opening] : config.openings)
-        if (opening.waveform && opening.waveform->file) add(*opening.waveform->file);
+    CheckpointOrigin origin{.deck_hash = {}, .binary_hash = binary_hash, .input_hashes = {}};
+    const auto take = [&](std::optional<std::filesystem::path>& file) {
+        if (!file) return;
+        std::string& hashes = origin.input_hashes[file->filename().string()];   // of all files of that name
+        if (!hashes.empty()) hashes += ' ';
+        hashes += hex_text(hash_file(*file));
+        file = file->filename();   // where it lies is not what it holds
+    };
+    take(alike.geometry.surface);
+    take(alike.geometry.network);
+    if (alike.stent) take(alike.stent->surface);
+    for (auto& [name, opening] : alike.openings)
+        if (opening.waveform) take(opening.waveform->file);
+    origin.deck_hash = hex_text(hash_bytes(deck::format_case(alike)));
     return origin;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "patency/base/errors.h"
 #include "patency/config/deck.h"
@@ -44,6 +45,23 @@ deck::Case case_after(const deck::Case& config, const Vessel& before, Vessel& ve
     return after;
 }
 
+std::map<std::string, Vec3> keep_branch_names(const BranchedLines& before, BranchedLines& after) {
+    std::map<std::string, Vec3> points;
+    std::set<std::size_t> named;
+    for (const Branch& branch : before.branches) {
+        const Vec3 middle = before.point(branch, (branch.first + branch.last) / 2).place;
+        if (const auto found = branch_around(after, middle); found && named.insert(*found).second) points[branch.name] = middle;
+    }
+    try {
+        BranchedLines renamed = after;
+        name_branches(renamed, points);
+        after = std::move(renamed);
+    } catch (const UsageError&) {   // a branch that is new has a name that an old one had: names would lie
+        return {};
+    }
+    return points;
+}
+
 Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const Surface& after, const OutputFolder& folder) {
     const auto path = std::filesystem::absolute(folder.file("lumen_after.vtp"));
     write_surface(path, after);
@@ -51,7 +69,10 @@ Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const S
     Vessel vessel = check_vessel(after);
     if (const std::string refused = refusals(vessel.checked.findings); !refused.empty())
         throw GeometryError(fmt::format("The lumen after the deployment cannot be used; patency inspect {} shows where.\n{}", path.string(), refused));
-    deck::write_case(case_after(config, before, vessel, path), folder.file("case_after.yaml"));
+    deck::Case config_after = case_after(config, before, vessel, path);
+    follow_vessel(vessel);
+    if (before.along && vessel.along) config_after.geometry.branches = keep_branch_names(before.along->lines, vessel.along->lines);
+    deck::write_case(config_after, folder.file("case_after.yaml"));
     return vessel;
 }
 

@@ -37,7 +37,7 @@ Vessel check_vessel(const Network& network, std::string_view inlet, double resol
 
 void follow_vessel(Vessel& vessel) {
     CheckedSurface& checked = vessel.checked;
-    if (!refusals(checked.findings).empty()) return;
+    if (vessel.along || !refusals(checked.findings).empty()) return;
     try {
         std::vector<Opening> openings;
         for (const SurfaceOpening& o : vessel.openings) openings.push_back(o.opening);
@@ -105,19 +105,22 @@ void expect_usable(const Vessel& vessel, const deck::Geometry& geometry) {
                                     (geometry.network ? *geometry.network : *geometry.surface).string(), refused));
 }
 
+/// What a key of the geometry asks for and cannot be is a mistake of the deck.
+template <class Change>
+void as_said_by(const char* key, Change change) {
+    try {
+        change();
+    } catch (const UsageError& error) {
+        throw DeckError(fmt::format("geometry.{}: {}", key, error.what()));
+    }
+}
+
 }   // namespace
 
 Vessel open_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     Vessel vessel = check_vessel(read_surface(g.surface.value(), g.unit.value_or(""), g.space.value_or("")));
     expect_usable(vessel, g);
-    const auto as_said_by = [](const char* key, auto change) {
-        try {
-            change();
-        } catch (const UsageError& error) {
-            throw DeckError(fmt::format("geometry.{}: {}", key, error.what()));
-        }
-    };
     if (g.inlet) as_said_by("inlet", [&] { choose_inlet(vessel.openings, *g.inlet); });
     as_said_by("names", [&] { rename_openings(vessel.openings, g.names); });
     expect_vessel_size(vessel.openings.front(), g.unit.value_or("mm"));
@@ -132,6 +135,7 @@ Vessel read_vessel(const deck::Case& config, double network_resolution) {
         Vessel vessel = open_vessel(config);
         follow_vessel(vessel);
         expect_usable(vessel, g);
+        as_said_by("branches", [&] { name_branches(vessel.along->lines, g.branches); });
         return vessel;
     }
     const Network network = read_network_of(config);

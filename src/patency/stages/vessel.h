@@ -50,7 +50,7 @@ Vessel check_vessel(Surface surface, std::string_view inlet = {});
 Vessel check_vessel(const Network& network, std::string_view inlet = {}, double resolution = 0);
 
 /// Adds the centrelines and what follows from them; where there are none, why, as one more refused finding. Does nothing
-/// where something is refused already.
+/// where something is refused already, or where it was followed before.
 void follow_vessel(Vessel& vessel);
 
 /// The vessel of a deck's surface, ready for use but not followed. Throws GeometryError with all refusals, or a question about the

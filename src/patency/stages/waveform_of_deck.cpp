@@ -17,7 +17,7 @@ const Unit& unit_of_column(const std::string& name, Dimension dimension, const s
     for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
         std::string spelling = name.substr(at + 1);
         for (std::size_t per = spelling.find("_per_"); per != std::string::npos; per = spelling.find("_per_"))
-            spelling.replace(per, 5, "/");
+            spelling.erase(per + 1, 4)[per] = '/';
         const Unit* unit = find_unit(spelling);
         if (unit && unit->dimension == dimension) return *unit;
     }

@@ -6,6 +6,8 @@
 
 #include "patency/base/errors.h"
 #include "patency/io/atomic_file.h"
+#include "patency/io/summary.h"
+#include "patency/verify/paper_tables.h"
 #include "patency/verify/runner.h"
 
 namespace patency {
@@ -35,13 +37,14 @@ std::string runs_of(const Json& timing) {
 
 }  // namespace
 
-void write_verification_report(const fs::path& out, const fs::path& document) {
+void write_verification_report(const fs::path& out, const fs::path& document, const fs::path& run) {
+    std::vector<CaseReport> reports;
     std::string body, summary = "| Case | What | Level | Particles | Bars met | CPU time [s] |\n|---|---|---|---|---|---|\n";
     const fs::path pictures = document.parent_path() / "verification";
     for (const VerifyCase& c : verification_cases()) {
         const fs::path file = out / (c.name + ".json");
         if (!fs::exists(file)) continue;
-        const CaseReport report = parse_report(read_file(file), file.string());
+        const CaseReport& report = reports.emplace_back(parse_report(read_file(file), file.string()));
         Json timing = Json::object();
         if (fs::exists(out / (c.name + ".timing.json"))) timing = Json::parse(read_file(out / (c.name + ".timing.json")));
         int bars = 0, met = 0;
@@ -61,12 +64,16 @@ void write_verification_report(const fs::path& out, const fs::path& document) {
             body += fmt::format("\n![{0}](verification/{1}.svg)\n\n*{0}.*\n", caption, name);
         }
     }
+    std::string paper = "\n## The reference paper's tables\n\nWhat arXiv 2511.08745 prints, what its scheme gives here (with its misprints mended), and ours.\n\n" + paper_figures_table(reports);
+    if (!run.empty())
+        paper += "\nIts table VI, before and after the stent, beside `patency run cases/stented_bifurcation.yaml` (made by `--run OUT`). The stent is opened without mechanics; what\n"
+                 "the paper calls FFR is a ratio of pressures above the lowest outlet's.\n\n" + paper_table_six(read_summary(run / "summary.json"));
     write_file(document,
                "# Verification\n\nEvery case below has a known answer. The tables are written by `patency verify --level full -o out` and\n"
                "`patency verify --report docs/VERIFICATION.md -o out`; decks are in `cases/verify/`, the closed forms in\n"
                "[THEORY](THEORY.md) section 12, the measures of error in section 13. Keys that begin with `paper_` belong to the\n"
                "reference paper's scheme, run here, and `paper_printed_` to the figures that the paper prints; they have no bar.\n\n" +
-                   summary + body);
+                   summary + paper + body);
 }
 
 }  // namespace patency

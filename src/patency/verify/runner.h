@@ -37,8 +37,9 @@ struct VerifyRequest {
 /// with ExitCode::interrupted if asked to stop.
 std::vector<CaseReport> run_verification(const VerifyRequest& request);
 
-/// docs/VERIFICATION.md from the reports in a folder: tables, times and pictures (copied beside it, into `verification/`).
+/// docs/VERIFICATION.md from the reports in a folder: tables, times and pictures (copied beside it, into `verification/`), and
+/// the reference paper's tables; `run`: the folder of a run that stands beside its table VI, or empty.
 /// @throws FileError.
-void write_verification_report(const std::filesystem::path& out, const std::filesystem::path& document);
+void write_verification_report(const std::filesystem::path& out, const std::filesystem::path& document, const std::filesystem::path& run);
 
 }  // namespace patency
