@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "patency/base/errors.h"
 #include "patency/base/parallel.h"
 
 namespace patency {
@@ -17,10 +18,6 @@ Vec3 displacement_of(const Constraint& c, const Vec3& reference, double time) {
 }
 
 Fibres<double> fibres_of(const SolidParticles& p, std::size_t i) { return {p.first_fibre[i], p.second_fibre[i]}; }
-
-struct Powers {
-    double load, drag;
-};
 
 }   // namespace
 
@@ -38,7 +35,8 @@ double SolidBody::stable_step() const {
         return modulus / m.density;
     });
     const double h = numerics_.smoothing_ratio * numerics_.spacing;
-    return numerics_.cfl * h / (std::sqrt(fastest) * (1 + numerics_.viscosity));
+    const double gain = selective_ ? selective_->step_gain() : 1.0;
+    return gain * numerics_.cfl * h / (std::sqrt(fastest) * (1 + numerics_.viscosity));
 }
 
 void SolidBody::drift(double dt, double time) {
@@ -57,9 +55,17 @@ void SolidBody::drift(double dt, double time) {
 }
 
 void SolidBody::kick(double dt, double time, double drag) {
+    const Powers powers = selective_ ? kick_selectively(dt, drag) : kick_free(dt, drag);
+    load_work_ += dt * powers.load;
+    drag_ += dt * powers.drag;
+    kick_constrained(dt, time);
+    if (numerics_.viscosity > 0) viscous_ += dt * viscous_power();
+}
+
+SolidBody::Powers SolidBody::kick_free(double dt, double drag) {
     SolidParticles& p = particles();
     const double slowing = 0.5 * drag * dt, keep = (1 - slowing) / (1 + slowing), push = dt / (1 + slowing);
-    const Powers powers = reduce(
+    return reduce(
         p.size(), Powers{0, 0},
         [&](std::size_t i) {
             if (p.constraint[i] != 0) return Powers{0, 0};
@@ -69,10 +75,35 @@ void SolidBody::kick(double dt, double time, double drag) {
             return Powers{dot(p.load[i], middle), drag * p.mass[i] * dot(middle, middle)};
         },
         [](const Powers& a, const Powers& b) { return Powers{a.load + b.load, a.drag + b.drag}; });
-    load_work_ += dt * powers.load;
-    drag_ += dt * powers.drag;
-    kick_constrained(dt, time);
-    if (numerics_.viscosity > 0) viscous_ += dt * viscous_power();
+}
+
+/// Forces push momenta, and these move the particles.                                                THEORY (20.17)
+SolidBody::Powers SolidBody::kick_selectively(double dt, double drag) {
+    SolidParticles& p = particles();
+    const double slowing = 0.5 * drag * dt, keep = (1 - slowing) / (1 + slowing), push = dt / (1 + slowing);
+    if (momentum_.empty())   // until now it moved as one
+        for (std::size_t i = 0; i < p.size(); ++i) momentum_.push_back(p.mass[i] * p.velocity[i]);
+    old_velocity_.assign(p.velocity.begin(), p.velocity.end());
+    middle_momentum_.resize(p.size());
+    for_each_index(p.size(), [&](std::size_t i) {
+        const Vec3 after = keep * momentum_[i] + push * (p.force[i] + p.load[i]);
+        middle_momentum_[i] = 0.5 * (momentum_[i] + after);
+        momentum_[i] = after;
+    });
+    selective_->compute_velocity(momentum_, p);
+    return reduce(
+        p.size(), Powers{0, 0},
+        [&](std::size_t i) {
+            const Vec3 middle = 0.5 * (old_velocity_[i] + p.velocity[i]);
+            return Powers{dot(p.load[i], middle), drag * dot(middle_momentum_[i], middle)};
+        },
+        [](const Powers& a, const Powers& b) { return Powers{a.load + b.load, a.drag + b.drag}; });
+}
+
+double SolidBody::kinetic() const {
+    const SolidParticles& p = particles();
+    if (!momentum_.empty()) return 0.5 * sum_of(p.size(), [&](std::size_t i) { return dot(momentum_[i], p.velocity[i]); });
+    return 0.5 * sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(p.velocity[i], p.velocity[i]); });
 }
 
 /// Few particles, one after another: their reactions add up in one order.
@@ -101,7 +132,7 @@ double SolidBody::find_present_frequency_squared(double dt) {
     double stiffness = 0, mass = 0;
     if (!is_first) {
         stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(p.velocity[i], p.force[i] - old_force_[i]); }) / dt;
-        mass = sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(p.velocity[i], p.velocity[i]); });
+        mass = 2 * kinetic();
     }
     for_each_index(p.size(), [&](std::size_t i) { old_force_[i] = p.force[i]; });
     return mass > 0 && stiffness > 0 ? stiffness / mass : 0.0;
@@ -140,10 +171,11 @@ SolidEnergy SolidBody::energy() {
         return metal ? metal->hardening.work(p.plastic_strain[i]) : 0.0;
     };
     SolidEnergy e;
-    e.kinetic = sum_of(p.size(), [&](std::size_t i) { return 0.5 * p.mass[i] * dot(p.velocity[i], p.velocity[i]); });
+    e.kinetic = kinetic();
     e.elastic = sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * elastic(i); });
     e.plastic = sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * flow(i); });
     e.hourglass = hourglass_energy();
+    e.yielded = yielded_;
     e.viscous = viscous_;
     e.drag = drag_;
     e.load_work = load_work_;
@@ -152,20 +184,27 @@ SolidEnergy SolidBody::energy() {
 }
 
 std::vector<double> SolidBody::state() const {
-    std::vector<double> state = {time_, viscous_, drag_, load_work_, constraint_work_, old_force_.empty() ? 0.0 : 1.0};
+    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, old_force_.empty() ? 0.0 : 1.0, momentum_.empty() ? 0.0 : 1.0};
     const auto add = [&](const std::vector<Vec3>& vectors) {
         for (const Vec3& v : vectors) state.insert(state.end(), {v.x, v.y, v.z});
     };
-    add(reactions_), add(old_force_);
+    add(reactions_), add(old_force_), add(momentum_);
     return state;
 }
 
 void SolidBody::restore(std::span<const double> state) {
     const double* at = state.data();
-    for (double* x : {&time_, &viscous_, &drag_, &load_work_, &constraint_work_}) *x = *at++;
+    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_}) *x = *at++;
     old_force_.resize(*at++ != 0 ? particles().size() : 0);
-    for (std::vector<Vec3>* vectors : {&reactions_, &old_force_})
+    momentum_.resize(*at++ != 0 ? particles().size() : 0);
+    for (std::vector<Vec3>* vectors : {&reactions_, &old_force_, &momentum_})
         for (Vec3& v : *vectors) v = {at[0], at[1], at[2]}, at += 3;
+}
+
+void SolidBody::find_selective_mass() {
+    if (numerics_.mass_scaling == 1) return;
+    if (!solid_.constraints.empty()) throw DeckError("a solid whose particles are heavier against their neighbours cannot be held");
+    selective_.emplace(particles(), numerics_.spacing, numerics_.mass_scaling);
 }
 
 void SolidBody::find_constrained() {

@@ -22,7 +22,11 @@ constexpr double largest_fixed = 2.0e9;
 
 constexpr double flattest = 1e-3;   // det of the moment over its mean cubed; 1 in the middle, 0.3 in a corner
 
-template <class T>
+/// Hourglass control is as soft as the metal would be at this multiple of its plastic strain. What it bears in a strut that bends
+/// is curvature, which the flow of the metal should: at 1 it took a fifth of the work of opening a ring of crowns.
+constexpr double strain_ahead = 10;
+
+template <class T, bool is_steep>
 class TotalLagrangianBody final : public SolidBody {
 public:
     TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics)
@@ -32,11 +36,13 @@ public:
         cells_.index(frame_, numerics.spacing, {p.reference.data(), p.size()});
         rows_.find_own(frame_, cells_, numerics.kernel().support(), native_lanes<T>);
         if constexpr (sizeof(T) == 4) displacement_unit_ = numerics.spacing / displacement_quanta_per_spacing;
+        is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(), [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
         make_records();
         correct_gradients();
         sort_members();
         find_damping();
         find_constrained();
+        find_selective_mass();
     }
 
     void compute_deformation() override {
@@ -53,6 +59,7 @@ public:
         for (std::size_t m = 0; m < members_.size(); ++m)
             inside_out = std::min(inside_out, compute_stress(solid_.materials[m], members_[m], input_, particles(), stress_));
         if (inside_out != no_particle) report_inside_out(inside_out, time);
+        if (is_metal_) soften_hourglass();
         if (numerics_.viscosity > 0) sum_force<true>();
         else sum_force<false>();
     }
@@ -97,6 +104,7 @@ private:
         geometry_.reset(n + 1), displacement_.reset(n + 1);
         for (auto& row : stress_) row.reset(n + 1, zero_record<T>());
         for (auto& column : input_.sums) column.reset(n);
+        if (is_metal_) stretching_.reset(n);
         for (auto& column : input_.correction) column.reset(n);
         input_.hourglass.reset(n);
         elastic_hourglass_.resize(n);
@@ -112,7 +120,7 @@ private:
     void correct_gradients() {
         const SolidParticles& p = particles();
         std::vector<std::uint8_t> is_flat(p.size(), 0);
-        sum<solid_terms::Moment>(records_of(geometry_), records_of(geometry_), {}, [&](std::uint32_t i, const std::array<T, 6>& s) {
+        sum<solid_terms::Moment<is_steep>>(records_of(geometry_), records_of(geometry_), {}, [&](std::uint32_t i, const std::array<T, 6>& s) {
             Mat3 M{{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
             const double mean = trace(M) / dimensions();
             if (numerics_.planar) M.z.z = mean;   // of no account: F_zz = 1
@@ -167,7 +175,7 @@ private:
         }
         input_.displacement_scale = displacement_unit_ / scale_.unit;
         for_each_index(p.size(), [&](std::size_t i) {
-            const double c = elastic_hourglass_[i] * softening(i);
+            const double c = hourglass_modulus(i);
             input_.hourglass[i] = T(c);
             displacement_[i] = displacement_record(p.position[i] - p.reference[i], T(c * input_.displacement_scale));
             stress_[0][i].d = T(p.velocity[i].x), stress_[1][i].d = T(p.velocity[i].y), stress_[2][i].d = T(p.velocity[i].z);
@@ -181,12 +189,29 @@ private:
             return {u.x, u.y, u.z, value};
         }
     }
-    /// A metal that flows is less stiff against hourglass modes too.                                     THEORY (19.14)
-    double softening(std::size_t i) const {
+    /// A metal that flows is less stiff against hourglass modes too.                             THEORY (19.14), (20.6)
+    double hourglass_modulus(std::size_t i) const {
         const double a = particles().plastic_strain[i];
-        if (a == 0) return 1;
-        const auto* law = std::get_if<J2Plastic>(&solid_.materials[std::size_t(particles().material[i])].law);
-        return law ? law->secant_share(a) : 1.0;
+        if (a == 0) return elastic_hourglass_[i];
+        const auto& law = std::get<J2Plastic>(solid_.materials[std::size_t(particles().material[i])].law);
+        return elastic_hourglass_[i] * law.secant_share(strain_ahead * a);
+    }
+
+    /// What hourglass modes have less of since the stress of this step was computed.                        THEORY (20.16)
+    void soften_hourglass() {
+        yielded_ += sum_of(particles().size(), [&](std::size_t i) {
+            if (particles().plastic_strain[i] == 0) return 0.0;
+            const double fell = double(input_.hourglass[i]) - hourglass_modulus(i);
+            return fell > 0 ? 0.5 * particles().volume[i] * fell * unfitted(i, double(stretching_[i])) : 0.0;
+        });
+    }
+
+    /// sum w |e|^2 of particle i, from its sums [units of distance squared].                              THEORY (20.7)
+    double unfitted(std::size_t i, double stretching) const {
+        std::array<double, 9> u;   // sum w (u_i - u_j) d^T
+        for (std::size_t k = 0; k < 9; ++k) u[k] = input_.displacement_scale * double(input_.sums[k][i]);
+        const Mat3 S{{u[0], u[1], u[2]}, {u[3], u[4], u[5]}, {u[6], u[7], u[8]}};
+        return input_.displacement_scale * input_.displacement_scale * stretching - double_dot(deformation(i) - identity<double>(), S);
     }
 
     template <class Term, class Finish>
@@ -195,11 +220,18 @@ private:
     }
 
     void sum_deformation() {
-        const auto records = records_of(geometry_, displacement_);
-        sum<solid_terms::Deformation>(records, records, {}, [&](std::uint32_t i, const std::array<T, 9>& s) {
-            for (std::size_t k = 0; k < 9; ++k) input_.sums[k][i] = s[k];
-        });
+        if (is_metal_) sum_deformation_of<true>();
+        else sum_deformation_of<false>();
         is_deformed_ = true;
+    }
+    template <bool is_metal>
+    void sum_deformation_of() {
+        const auto records = records_of(geometry_, displacement_);
+        using Term = solid_terms::Deformation<is_steep, is_metal>;
+        sum<Term>(records, records, {}, [&](std::uint32_t i, const std::array<T, std::size_t(Term::sums)>& s) {
+            for (std::size_t k = 0; k < 9; ++k) input_.sums[k][i] = s[k];
+            if constexpr (is_metal) stretching_[i] = s[9];
+        });
     }
 
     template <bool is_damped>
@@ -207,7 +239,7 @@ private:
         SolidParticles& p = particles();
         const auto records = records_of(geometry_, displacement_, stress_[0], stress_[1], stress_[2]);
         const double per_unit = 1 / scale_.unit;
-        using Term = solid_terms::Force<is_damped>;
+        using Term = solid_terms::Force<is_steep, is_damped>;
         sum<Term>(records, records, Term{input_.displacement_scale, damping_}, [&](std::uint32_t i, const std::array<T, std::size_t(Term::sums)>& s) {
             const double scale = p.volume[i] * per_unit;
             p.force[i] = scale * Vec3{double(s[0]), double(s[1]), double(s[2])};
@@ -221,13 +253,8 @@ private:
         const SolidParticles& p = particles();
         std::vector<double> energy(p.size());
         const auto records = records_of(geometry_, displacement_);
-        sum<solid_terms::Stretching>(records, records, {}, [&](std::uint32_t i, const std::array<T, 1>& s) {
-            std::array<double, 9> u;   // sum w (u_i - u_j) d^T
-            for (std::size_t k = 0; k < 9; ++k) u[k] = input_.displacement_scale * double(input_.sums[k][i]);
-            const Mat3 S{{u[0], u[1], u[2]}, {u[3], u[4], u[5]}, {u[6], u[7], u[8]}};
-            const double scale = input_.displacement_scale * input_.displacement_scale;
-            const double apart = scale * double(s[0]) - double_dot(deformation(i) - identity<double>(), S);
-            energy[i] = 0.5 * p.volume[i] * double(input_.hourglass[i]) * apart;
+        sum<solid_terms::Stretching<is_steep>>(records, records, {}, [&](std::uint32_t i, const std::array<T, 1>& s) {
+            energy[i] = 0.5 * p.volume[i] * double(input_.hourglass[i]) * unfitted(i, double(s[0]));
         });
         return sum_of(p.size(), [&](std::size_t i) { return energy[i]; });
     }
@@ -250,19 +277,25 @@ private:
     Cells cells_;
     Neighbours rows_;
     AlignedVector<Quad<T>> geometry_, displacement_;   // (X, volume), (u, hourglass modulus)
+    AlignedVector<T> stretching_;                      // sum w |u_i - u_j|^2, of metals
     std::array<AlignedVector<Quad<T>>, 3> stress_;     // (row of A, component of v)
     StressInput<T> input_;
     std::vector<std::vector<std::uint32_t>> members_;  // by material
     std::vector<double> elastic_hourglass_, damping_power_;
     double displacement_unit_ = 1, damping_ = 0;
-    bool is_deformed_ = false;
+    bool is_deformed_ = false, is_metal_ = false;
 };
+
+template <class T>
+std::unique_ptr<SolidBody> make_body_of(Solid& solid, const SolidNumerics& numerics) {
+    if (numerics.weights == SolidWeights::steep) return std::make_unique<TotalLagrangianBody<T, true>>(solid, numerics);
+    return std::make_unique<TotalLagrangianBody<T, false>>(solid, numerics);
+}
 
 }   // namespace
 
 std::unique_ptr<SolidBody> make_solid_body(Solid& solid, const SolidNumerics& numerics) {
-    if (numerics.precision == Precision::double_precision) return std::make_unique<TotalLagrangianBody<double>>(solid, numerics);
-    return std::make_unique<TotalLagrangianBody<float>>(solid, numerics);
+    return numerics.precision == Precision::double_precision ? make_body_of<double>(solid, numerics) : make_body_of<float>(solid, numerics);
 }
 
 }   // namespace patency

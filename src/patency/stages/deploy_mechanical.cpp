@@ -52,6 +52,12 @@ struct Marks {
     double deepest = 0;                                  // of stent in wall [m]
 };
 
+/// What tools gave and contacts took.
+struct ContactAccount {
+    double work = 0, stored = 0, friction = 0, damping = 0;   // [J]
+    void add(const ContactReport& r) { work += r.work, stored += r.energy, friction += r.friction_loss, damping += r.damping_loss; }
+};
+
 class Deployment {
 public:
     Deployment(const deck::Case& config, const DeployStage& stage)
@@ -101,7 +107,8 @@ private:
         if (scene_->stent) solids.parts.push_back(std::move(scene_->stent));
         const bool needs_wall = phase != DeployPhase::crimp && phase != DeployPhase::release;
         if (scene_->wall && (needs_wall || program_.predilation)) solids.parts.push_back(std::move(scene_->wall));
-        solids.is_relaxed = true;   // what is driven slowly is to be near rest at every moment
+        // What a tool drives goes slowly enough by itself; damping would take the work that is to be done on metal and wall.
+        solids.is_relaxed = phase == DeployPhase::hold || phase == DeployPhase::settle;
         const double step = stable_step(solids);
         const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
             return make_tool_contact(surface, {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
@@ -112,6 +119,7 @@ private:
             crimper_ = add(tool(*stent_->surface, RadialTool::Kind::crimper, program_.crimper));
             add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));   // folded: what it is crimped onto
         } else if (needs_wall && !stent_on_wall_) {
+            for (const auto& gone : solids.contacts) past_.add(gone->report());
             solids.contacts.clear();
             crimper_ = predilator_ = nullptr;
             if (config_.deployment.tethering > 0) add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
@@ -124,7 +132,7 @@ private:
 
     template <class Tool>
     void open(const Tool& tool) {
-        if (predilator_) system().contacts.pop_back(), predilator_ = nullptr;
+        if (predilator_) past_.add(predilator_->report()), system().contacts.pop_back(), predilator_ = nullptr;
         if (config_.deployment.mode == deck::DeploymentMode::balloon) {
             balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
             add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon));
@@ -164,6 +172,23 @@ private:
         load_->stopped = time();
         marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
         say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load_->reached, 1e3 * profile_.mean_diameter));
+    }
+
+    /// Where the work of the tools is.
+    Json energies() {
+        ContactAccount contacts = past_;
+        contacts.stored = 0;   // of those that are gone
+        for (const auto& c : system().contacts) contacts.add(c->report());
+        double kept = contacts.stored + contacts.friction + contacts.damping;
+        Json energies = {{"tool_work_j", contacts.work}, {"friction_loss_j", contacts.friction}, {"contact_damping_loss_j", contacts.damping}};
+        for (const auto& part : system().parts) {
+            const SolidEnergy e = part->body->energy();
+            energies[part->name] = {{"kinetic_j", e.kinetic}, {"elastic_j", e.elastic}, {"plastic_j", e.plastic}, {"hourglass_j", e.hourglass},
+                                    {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous}, {"drag_loss_j", e.drag}};
+            kept += e.kinetic + e.internal() + e.lost();
+        }
+        if (!load_ && contacts.work > 0) energies["imbalance_percent"] = 100 * std::abs(contacts.work - kept) / contacts.work;
+        return energies;
     }
 
     double tool_radius() const {
@@ -237,6 +262,7 @@ private:
         deploy["kinetic_to_internal_stent"] = marks_.stent_ratio;
         deploy["kinetic_to_internal_wall"] = marks_.wall_ratio;
         deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
+        deploy["energies"] = energies();
         deploy["largest_tool_pressure_pa"] = marks_.balloon_pressure;
         deploy["stresses"] = stresses_json(*stent_, *wall_, axis, profile_.length, stent_on_wall_->pushes());
         deploy["particles"] = {{"stent", stent_->body->particles().size()}, {"wall", wall_->body->particles().size()}};
@@ -264,6 +290,7 @@ private:
     DeployPhase phase_ = DeployPhase::crimp;
     StentProfile profile_;
     Marks marks_;
+    ContactAccount past_;   // of contacts that are over
     PvdWriter stent_series_, wall_series_;
     CsvWriter table_;
     std::size_t rows_ = 0;

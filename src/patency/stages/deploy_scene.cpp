@@ -27,6 +27,12 @@ SolidNumerics numerics_of(const deck::Case& config, double spacing) {
             .precision = config.numerics.precision == deck::Precision::mixed ? Precision::mixed : Precision::double_precision};
 }
 
+SolidNumerics stent_numerics(const deck::Case& config, double spacing) {
+    SolidNumerics n = numerics_of(config, spacing);
+    n.smoothing_ratio = stent_smoothing_ratio;
+    return n;
+}
+
 WallField field_around(const deck::Case& config, const Vessel& vessel, const StentPlace& place) {
     const VesselAlong& along = vessel.along.value();
     std::vector<Vec3> normals;
@@ -108,8 +114,9 @@ double stent_mass_scaling(const deck::Case& config, const StentPattern& pattern,
     const deck::Deployment& d = config.deployment;
     if (d.mass_scaling) return *d.mass_scaling;
     const SolidMaterial metal = stent_material(*config.stent, pattern);
-    const SolidNumerics n = numerics_of(config, spacing);
-    const double step = n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density)), wanted = d.ramp / d.steps;
+    const SolidNumerics n = stent_numerics(config, spacing);
+    const double step = std::sqrt(stent_particle_mass_scaling) * n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density)),
+                 wanted = d.ramp / d.steps;
     return std::max(1.0, (wanted / step) * (wanted / step));
 }
 
@@ -132,7 +139,7 @@ std::unique_ptr<DeployScene> build_deployment(const deck::Case& config) {
     scene->stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(scene->curves));
 
     const SolidMaterial metal = stent_material(*config.stent, scene->place.pattern);
-    const SolidNumerics numerics = numerics_of(config, scene->stent_spacing);
+    const SolidNumerics numerics = stent_numerics(config, scene->stent_spacing);
     scene->mass_scaling = stent_mass_scaling(config, scene->place.pattern, scene->stent_spacing);
     scene->stent = make_stent_part("stent", scene->curves, scene->place.axis, metal, numerics, scene->mass_scaling);
     scene->wall = make_wall_part(*scene);

@@ -47,7 +47,7 @@ public:
         }
         say(fmt::format("stable step {:.4g} s", stable_step(scene_->system)));
         const std::vector<std::string> columns = {"time_s", "kinetic_j", "elastic_j", "hourglass_j", "plastic_j", "contact_j", "viscous_loss_j",
-                                                  "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j", "damping_loss_j", "tool_work_j"};
+                                                  "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j", "damping_loss_j", "tool_work_j", "hourglass_loss_j"};
         const auto table = stage.folder.file("energies.csv");
         energies_ = std::make_unique<CsvWriter>(is_resumed_ ? CsvWriter::resumed(table, columns, scene_->time) : CsvWriter(table, columns));
         last_checkpoint_ = scene_->time;
@@ -115,14 +115,14 @@ private:
         for (auto& part : scene_->system.parts) {
             const SolidEnergy e = part->body->energy();
             sum.kinetic += e.kinetic, sum.elastic += e.elastic, sum.hourglass += e.hourglass, sum.plastic += e.plastic;
-            sum.viscous += e.viscous, sum.drag += e.drag, sum.load_work += e.load_work, sum.constraint_work += e.constraint_work;
+            sum.yielded += e.yielded, sum.viscous += e.viscous, sum.drag += e.drag, sum.load_work += e.load_work, sum.constraint_work += e.constraint_work;
         }
         for (const auto& c : scene_->system.contacts) {
             const ContactReport r = c->report();
             contact.energy += r.energy, contact.friction_loss += r.friction_loss, contact.damping_loss += r.damping_loss, contact.work += r.work;
         }
         energies_->write_row({scene_->time, sum.kinetic, sum.elastic, sum.hourglass, sum.plastic, contact.energy, sum.viscous, sum.drag,
-                              contact.friction_loss, sum.load_work, sum.constraint_work, contact.damping_loss, contact.work});
+                              contact.friction_loss, sum.load_work, sum.constraint_work, contact.damping_loss, contact.work, sum.yielded});
     }
 
     void write_frames() {

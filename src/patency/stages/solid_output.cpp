@@ -27,7 +27,7 @@ Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Json energy_json(const SolidEnergy& e) {
     return {{"kinetic_j", e.kinetic},       {"elastic_j", e.elastic},       {"hourglass_j", e.hourglass},
-            {"plastic_j", e.plastic},       {"viscous_loss_j", e.viscous},  {"drag_loss_j", e.drag},
+            {"plastic_j", e.plastic},       {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous},  {"drag_loss_j", e.drag},
             {"load_work_j", e.load_work},   {"constraint_work_j", e.constraint_work},
             {"kinetic_to_internal", e.internal() > 0 ? Json(e.kinetic / e.internal()) : Json()}};
 }

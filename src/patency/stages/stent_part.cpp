@@ -21,6 +21,9 @@ constexpr double spacings_per_element = 4.0 / 3;
 
 std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StrutCurves& curves, const StentAxis& axis, const SolidMaterial& material,
                                            const SolidNumerics& numerics, double mass_scaling) {
+    SolidNumerics driven = numerics;   // a stent goes where tools and walls take it
+    driven.weights = SolidWeights::steep;
+    driven.mass_scaling = stent_particle_mass_scaling;
     StentParticles metal;
     make_stent_particles(curves, axis, numerics.spacing, metal);
     auto part = std::make_unique<SolidPart>();
@@ -40,7 +43,7 @@ std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StrutC
                                         "particles: use a spacing below {:.3g} um or a wider gap.",
                                         1e3 * x.x, 1e3 * x.y, 1e3 * x.z, 1e6 * numerics.kernel().support(), 1e6 * numerics.spacing));
     }
-    part->body = make_solid_body(solid, numerics);
+    part->body = make_solid_body(solid, driven);
     part->surface = std::make_unique<SolidSurface>(make_stent_skin(curves, axis, spacings_per_element * numerics.spacing), solid.particles,
                                                    numerics.kernel().support(), false);
     return part;

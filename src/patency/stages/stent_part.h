@@ -11,6 +11,12 @@
 
 namespace patency {
 
+/// How many times heavier a stent's particles are against their neighbours. Four times as long a step then bears it; struts
+/// that swing weigh a twentieth more.                                                                 THEORY (20.17)
+inline constexpr double stent_particle_mass_scaling = 16;
+/// Smoothing length over spacing that resolves bending best with four particles across.
+inline constexpr double stent_smoothing_ratio = 1.0;
+
 /// The stent as it was cut, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
 /// every strut (largest_stent_spacing); mass_scaling multiplies the material's density. Its surface has the faces outer,
 /// inner and side (stent_skin.h). Throws GeometryError: too coarse, or struts so near that particles would reach across the

@@ -5,7 +5,7 @@
 import math
 import sys
 
-from make_deck import CROWNS, HARDENING, YIELD
+from make_deck import CROWNS, HARDENING, LENGTH, YIELD
 
 
 def blocks(path):
@@ -18,7 +18,7 @@ def blocks(path):
                 yield title, rows
             title, rows = line.strip(), []
         elif words and title:
-            rows.append([float(w) for w in words])
+            rows.append([w if w == 'L' else float(w) for w in words])   # L: in cylindrical axes
     if rows:
         yield title, rows
 
@@ -34,13 +34,21 @@ def places(path):
     return nodes
 
 
+def radius(x, y, u, v, is_cylindrical):
+    if is_cylindrical:
+        return math.hypot(math.hypot(x, y) + u, v)
+    return math.hypot(x + u, y + v)
+
+
 def main(deck, results):
     nodes = places(deck)
-    diameters, works, strains, volumes = [], [], None, []
+    diameters, lengths, works, strains, volumes = [], [], [], None, []
     for title, rows in blocks(results):
         if title.startswith('displacements'):
-            r = [math.hypot(nodes[int(n)][0] + u, nodes[int(n)][1] + v) for n, u, v, _ in rows]
+            r = [radius(*nodes[int(n)][:2], u, v, bool(local)) for n, u, v, _, *local in rows]
             diameters.append(2 * sum(r) / len(r))
+            z = [nodes[int(row[0])][2] + row[3] for row in rows]
+            lengths.append(max(z) - min(z))
         elif 'equivalent plastic strain' in title:
             strains = {}
             for e, _, a in rows:
@@ -51,6 +59,7 @@ def main(deck, results):
             works.append(2 * CROWNS * 1e-3 * sum(volume[e] * sum(map(work, a)) / len(a) for e, a in strains.items()))
             volumes.append(max(max(a) for a in strains.values()))
     print(f'outer diameter open {diameters[0]:.4f} mm, at rest {diameters[-1]:.4f} mm, recoil {100 * (1 - diameters[-1] / diameters[0]):.3f} %')
+    print(f'foreshortening at rest {100 * (1 - lengths[-1] / LENGTH):.2f} %')
     print(f'plastic work of the ring {works[0]:.5g} J, largest plastic strain {volumes[0]:.4f}')
 
 
