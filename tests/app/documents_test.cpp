@@ -45,9 +45,9 @@ TEST(Documents, NoLineOfTheManualIsTakenForARequest) {
         if (!line.empty() && (line[0] == '.' || line[0] == '\'')) EXPECT_TRUE(requests.count(line.substr(0, line.find(' ')))) << line;
 }
 
-/// What bash offers for words of which the last is being written.
+/// What bash offers in an empty folder for words of which the last is being written.
 std::string offered(const std::string& words, int at) {
-    const std::string script = fmt::format("source <('{}' completion bash); COMP_WORDS=({}); COMP_CWORD={}; _patency; echo \"${{COMPREPLY[*]}}\"", PATENCY_BINARY, words, at);
+    const std::string script = fmt::format("cd $(mktemp -d); trap 'rmdir $PWD' EXIT; source <('{}' completion bash); COMP_WORDS=({}); COMP_CWORD={}; _patency; echo \"${{COMPREPLY[*]}}\"", PATENCY_BINARY, words, at);
     std::FILE* pipe = popen(fmt::format("bash -c {}", "'" + std::regex_replace(script, std::regex("'"), "'\\''") + "'").c_str(), "r");
     std::string output;
     char chunk[4096];

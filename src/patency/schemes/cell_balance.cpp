@@ -17,13 +17,13 @@ namespace {
 /// The pressure [Pa] at which the ends' flows cancel if the vessel itself resists nothing, those that are prescribed included. A
 /// start from another one would fill or empty the vessel in a rush.
 double level_of_ends(std::span<const CellEnd> ends) {
-    double largest = 0, pressures = 0, conductance = 0, enters = 0;
+    double largest = 0, smallest = INFINITY, pressures = 0, conductance = 0, enters = 0;
     for (const CellEnd& end : ends)
-        if (end.kind == CellEnd::Kind::pressure) largest = std::max(largest, end.resistance);
+        if (end.kind == CellEnd::Kind::pressure) largest = std::max(largest, end.resistance), smallest = std::min(smallest, end.resistance);
     const double least = largest > 0 ? 1e-6 * largest : 1;   // of an end without a resistance: it decides
     for (const CellEnd& end : ends) {
         if (end.kind != CellEnd::Kind::pressure) {
-            enters -= end.flow;
+            if (smallest > 0) enters -= end.flow;
             continue;
         }
         const double own = 1 / (end.resistance + least);

@@ -48,6 +48,7 @@ public:
     const CellBalance& balance() const { return *balance_; }   ///< of the last step
 
 private:
+    FlowStep step_of(double time, double dt);
     std::vector<CellEnd> ends_at(double time);
     void start_feeding();
     void start_from_extrapolation(const TimeRate& rate, double dt);

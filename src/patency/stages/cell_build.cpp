@@ -16,13 +16,20 @@ namespace patency {
 
 namespace {
 
-/// The steady case whose openings do what the case's do in the mean.
-deck::Case mean_of(const deck::Case& config, const Scene& scene) {
-    deck::Case mean = config;
-    mean.about.mode = deck::Mode::steady;
+/// What an opening's waveform is at first; the mean of a flow that nearly rests then, which no steady flow can be found from.
+double start_of(const EndLaw& law) {
+    constexpr double nearly_at_rest = 0.1;
+    const double now = law.signal.waveform(0), mean = law.signal.waveform.mean();
+    return law.prescribes_flow() && std::abs(now) < nearly_at_rest * std::abs(mean) ? mean : now;
+}
+
+/// The steady case whose openings do what the case's do at first.
+deck::Case start_of(const deck::Case& config, const Scene& scene) {
+    deck::Case start = config;
+    start.about.mode = deck::Mode::steady;
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
-        deck::Opening& opening = mean.openings.at(scene.ends[k].name);
-        const double value = opening.waveform ? scene.laws[k].signal.waveform.mean() : 0;
+        deck::Opening& opening = start.openings.at(scene.ends[k].name);
+        const double value = opening.waveform ? start_of(scene.laws[k]) : 0;
         if (opening.waveform && opening.type == deck::OpeningType::pressure) opening.pressure = value;
         if (opening.waveform && opening.type == deck::OpeningType::flow) opening.flow = value;
         if (opening.waveform && opening.type == deck::OpeningType::velocity) opening.velocity = value / scene.ends[k].area;
@@ -30,7 +37,7 @@ deck::Case mean_of(const deck::Case& config, const Scene& scene) {
         opening.ramp = 0;
         if (opening.profile == deck::VelocityProfile::womersley) opening.profile = deck::VelocityProfile::parabola;
     }
-    return mean;
+    return start;
 }
 
 std::vector<MarchedEnd> marched_ends(const Scene& scene, const Rheology& rheology) {
@@ -152,7 +159,7 @@ std::unique_ptr<Scene> build_cell_scene(const deck::Case& config) {
         start_march(*scene, std::move(mesh));
         return scene;
     }
-    const auto solved = make_solved_scene(mean_of(scene->config, *scene));
+    const auto solved = make_solved_scene(start_of(scene->config, *scene));
     scene->spacing_at = solved->spacing_at;
     place_cells(*scene, solved->mesh);
     set_flow(*scene, solved->balance->fields());

@@ -11,7 +11,7 @@
 
 namespace patency {
 
-/// Ready for its first step: with the deck's initial velocity, or else the steady flow of the openings' means. Throws DeckError,
+/// Ready for its first step: with the deck's initial velocity, or else the steady flow of what the openings do at first. Throws DeckError,
 /// GeometryError, FileError, DivergedError.
 std::unique_ptr<Scene> build_cell_scene(const deck::Case& config);
 

@@ -15,8 +15,9 @@ namespace {
 // Measured on one core: from 0.5 ms of a cell of the reference paper's bifurcation (49,000) to 1.1 ms of one of a real left tree
 // (226,000); the largest resident memory of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 869 MB with 226,000.
 constexpr double seconds_per_cell = 0.8e-3, bytes_per_cell = 3800, bytes_at_least = 120e6;
-// Six iterations of 2.5 us, of pipes of 9,000 to 12,000 cells with pressures or Windkessels behind them.
-constexpr double seconds_per_cell_and_step = 15e-6;
+// Of pipes with pressures or Windkessels behind them six iterations in a step and 15 us; of a bifurcation with an aortic pressure in
+// front and Windkessels behind 17 iterations and 60 us, on a machine that was shared by three.
+constexpr double seconds_per_cell_and_step = 30e-6;
 constexpr double shared = 0.8;   // of the work that a second thread takes half of
 
 /// The volume over the cube of the spacing, along the centrelines; each stretch counts once.
