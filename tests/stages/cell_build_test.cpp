@@ -101,6 +101,27 @@ TEST(CellMarch, StartsFromTheSteadyFlowOfWhatTheOpeningsDoAtFirst) {
     EXPECT_NEAR(scene->laws[1].known_flow, scene->ends[1].flow, 0);
 }
 
+// What a step does not come to the end of it does in shorter ones, from where it began, and then lengthens them again.
+TEST(CellMarch, TakesAStepThatFailsByHalves) {
+    const auto whole = build_scene(pulsed(open, "0.3 s")), halved = build_scene(pulsed(open, "0.3 s"));
+    const double step = period / 40;
+    whole->scheme->step(0, step), halved->scheme->step(0, step);
+    const auto impose = halved->scheme->update_ends;
+    halved->scheme->update_ends = [&](std::span<OpenEnd> ends, double time, double dt) {
+        impose(ends, time, dt);
+        if (dt > 0.3 * step) throw DivergedError("too long");
+    };
+    EXPECT_EQ(halved->scheme->step(step, step).dt, 0.25 * step);
+    whole->scheme->step(step, 0.25 * step);
+    EXPECT_EQ(halved->ends[1].flow, whole->ends[1].flow);
+    EXPECT_TRUE(std::equal(whole->fluid.velocity.begin(), whole->fluid.velocity.end(), halved->fluid.velocity.begin()));
+    EXPECT_EQ(halved->scheme->state(), whole->scheme->state());
+    halved->scheme->update_ends = impose;
+    EXPECT_EQ(halved->scheme->step(1.25 * step, step).dt, 0.5 * step);   // twice the last one at most
+    halved->scheme->update_ends = [](std::span<OpenEnd>, double, double) { throw DivergedError("never"); };
+    EXPECT_THROW(halved->scheme->step(1.75 * step, step), DivergedError);
+}
+
 TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
     const deck::Case config = pulsed(bed, "0.12 s", "output: {interval: \"0.05 s\", probes: [{name: middle, point: [\"1 mm\", \"2 mm\", \"-0.5 mm\"]}]}");
     const Folder folder;

@@ -9,13 +9,6 @@ namespace patency {
 
 namespace {
 
-double product(const CellVectors& a, const CellVectors& b) {
-    return sum_of(a.size(), [&](std::size_t i) {
-        const CellVector c = a[i] * b[i];
-        return (double(c[0]) + double(c[1])) + (double(c[2]) + double(c[3]));
-    });
-}
-
 void add(double factor, const CellVectors& a, CellVectors& to) {
     const auto f = float(factor);
     for_each_index(a.size(), [&](std::size_t i) { to[i] += f * a[i]; });

@@ -8,6 +8,13 @@
 
 namespace patency {
 
+double product(const CellVectors& a, const CellVectors& b) {
+    return sum_of(a.size(), [&](std::size_t i) {
+        const CellVector c = a[i] * b[i];
+        return (double(c[0]) + double(c[1])) + (double(c[2]) + double(c[3]));
+    });
+}
+
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();

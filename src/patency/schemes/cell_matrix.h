@@ -14,6 +14,9 @@ namespace patency {
 typedef float CellVector __attribute__((vector_size(16)));
 using CellVectors = std::vector<CellVector>;
 
+/// Sum of all products, in double and in fixed blocks: the same bits for any number of threads.
+double product(const CellVectors& a, const CellVectors& b);
+
 /// Row i:  pressure  p_diagonal p_i + divergence . u_i + sum_j (-c_ij p_j + a_ij . u_j)
 ///         velocity  m_diagonal u_i + gradient p_i     + sum_j (m_ij u_j + a_ij p_j)
 struct CellMatrixRow {

@@ -7,17 +7,6 @@
 
 namespace patency {
 
-namespace {
-
-double product(const CellVectors& a, const CellVectors& b) {
-    return sum_of(a.size(), [&](std::size_t i) {
-        const CellVector c = a[i] * b[i];
-        return (double(c[0]) + double(c[1])) + (double(c[2]) + double(c[3]));
-    });
-}
-
-}   // namespace
-
 void CellMixing::mix(CellVectors& change) {
     constexpr double regular = 1e-8;   // of the largest square: answers that say nearly the same share what there is to say
     const std::size_t size = change.size();

@@ -173,7 +173,9 @@ bool is_interrupted(const CellSolution& solution) { return !solution.is_converge
 }   // namespace
 
 CellSolution solve_instant(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
-    return iterate(balance, matrix, settings);
+    CellSolution solution = iterate(balance, matrix, settings);
+    if (solution.is_settled) throw DivergedError("an instant of the flow on cells only stands at its openings, and the cells are not in balance");
+    return solution;
 }
 
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
