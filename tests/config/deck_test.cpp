@@ -139,10 +139,8 @@ TEST(Deck, FlowInAStillVesselIsSolvedOnCellsUnlessItSaysOtherwise) {
     c.geometry.network = "tube.json";
     c.about.mode = Mode::steady;
     EXPECT_EQ(c.scheme(), SchemeName::cells);
-    c.about.mode = Mode::periodic, c.about.period = 0.8;
+    c.about.mode = Mode::periodic;
     EXPECT_EQ(c.scheme(), SchemeName::cells);
-    c.about.period.reset();   // cells go by shares of it
-    EXPECT_EQ(c.scheme(), SchemeName::sph);
     c.about.mode = Mode::steady, c.wall.motion = WallMotion::deformable;
     EXPECT_EQ(c.scheme(), SchemeName::sph);
     c.wall.motion = WallMotion::rigid, c.numerics.scheme = SchemeName::paper;

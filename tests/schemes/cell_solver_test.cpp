@@ -173,7 +173,12 @@ TEST(CellSolver, carriesALevelOfAllPressuresAlong) {
     pipe.inlet.flow = -pipe.flow();
     CellBalance low = pipe.balance();
     pipe.outlet.pressure = 13332;   // 100 mmHg
-    CellBalance high = pipe.balance();   // both start from their level
+    CellBalance high = pipe.balance();
+    // Both start from the level at which what is prescribed to enter passes the resistance.
+    const double risen = 1e7 * pipe.flow();
+    ASSERT_GT(risen, 1);
+    EXPECT_NEAR(low.fields().pressure.front(), risen, 2e-6 * risen);   // a millionth of the largest resistance is added to each
+    EXPECT_NEAR(high.fields().pressure.front(), 13332 + risen, 2e-6 * risen);
     solve(low, pipe.mesh), solve(high, pipe.mesh);
     const CellFields a = low.fields(), b = high.fields();
     for (std::size_t i = 0; i < pipe.mesh.size(); ++i) {

@@ -109,7 +109,7 @@ TEST(CellMarch, TakesAStepThatFailsByHalves) {
     const auto impose = halved->scheme->update_ends;
     halved->scheme->update_ends = [&](std::span<OpenEnd> ends, double time, double dt) {
         impose(ends, time, dt);
-        if (dt > 0.3 * step) throw DivergedError("too long");
+        if (dt > 0.3 * step) ends[1].pressure = NAN;   // the solution is lost on its way
     };
     EXPECT_EQ(halved->scheme->step(step, step).dt, 0.25 * step);
     whole->scheme->step(step, 0.25 * step);
@@ -118,7 +118,7 @@ TEST(CellMarch, TakesAStepThatFailsByHalves) {
     EXPECT_EQ(halved->scheme->state(), whole->scheme->state());
     halved->scheme->update_ends = impose;
     EXPECT_EQ(halved->scheme->step(1.25 * step, step).dt, 0.5 * step);   // twice the last one at most
-    halved->scheme->update_ends = [](std::span<OpenEnd>, double, double) { throw DivergedError("never"); };
+    halved->scheme->update_ends = [](std::span<OpenEnd> ends, double, double) { ends[1].pressure = NAN; };
     EXPECT_THROW(halved->scheme->step(1.75 * step, step), DivergedError);
 }
 
@@ -139,12 +139,6 @@ TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
         EXPECT_FALSE(text_of(whole.file(file)).empty());
         EXPECT_EQ(text_of(whole.file(file)), text_of(out.file(file))) << file;
     }
-}
-
-TEST(RunFlow, APulseWithoutAPeriodIsRefusedOnCells) {
-    deck::Case config = pulsed(open, "0.3 s");
-    config.about.period.reset();
-    EXPECT_THROW(build_scene(config), DeckError);
 }
 
 }   // namespace

@@ -9,8 +9,8 @@ SchemeName Case::scheme() const {
     if (numerics.scheme) return *numerics.scheme;
     const bool has_waveform = std::any_of(openings.begin(), openings.end(), [](const auto& o) { return bool(o.second.waveform); });
     const bool is_still = wall.motion == WallMotion::rigid && wall.velocity.empty() && body_force.x == 0 && body_force.y == 0 && body_force.z == 0;
-    const bool is_on_cells = about.mode == Mode::steady ? !has_waveform : about.period.has_value();
-    return numerics.follows_vessel() || (has_vessel() && is_still && is_on_cells) ? SchemeName::cells : SchemeName::sph;
+    const bool is_changing_once = about.mode == Mode::steady && has_waveform;
+    return numerics.follows_vessel() || (has_vessel() && is_still && !is_changing_once) ? SchemeName::cells : SchemeName::sph;
 }
 
 }   // namespace patency::deck

@@ -51,7 +51,6 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
 /// Of a periodic flow.
 double steps_of(const deck::Case& config) {
     if (config.about.mode == deck::Mode::steady) return 0;
-    expect_possible(config);   // it has a period
     return config.numerics.duration / *config.about.period * config.numerics.steps_per_period;
 }
 

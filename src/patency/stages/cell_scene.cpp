@@ -65,8 +65,6 @@ void expect_possible(const deck::Case& config) {
     if (!config.wall.velocity.empty())
         throw DeckError("numerics.scheme: cells is for walls at rest, and wall.velocity moves them" + ask);
     if (norm(config.body_force) > 0) throw DeckError("numerics.scheme: cells knows no body_force" + ask);
-    if (config.about.mode == deck::Mode::periodic && !config.about.period)
-        throw DeckError("case.period: cells follow a periodic flow by shares of its period; give it");
     for (const auto& [name, opening] : config.openings)
         if (opening.waveform && config.about.mode == deck::Mode::steady)
             throw DeckError(fmt::format("openings.{}.waveform: of a steady flow on cells there is none; case.mode: periodic follows it", name));
