@@ -86,6 +86,20 @@ TEST(Page, IsTheSameForTheSameResults) {
     EXPECT_EQ(make_page(results, "1"), make_page(read_results(folder.path()), "1"));
 }
 
+TEST(Page, SaysByWhatMethodTheFlowWasFound) {
+    const ScratchFolder folder;
+    const auto page_of = [&](const Json& summary) {
+        write_summary(folder / "summary.json", summary);
+        return make_page(read_results(folder.path()), "1");
+    };
+    Json summary = flow_summary();
+    EXPECT_TRUE(has(page_of(summary), "moving particles"));
+    summary["scheme"] = "cells";
+    EXPECT_TRUE(has(page_of(summary), "steady flow on the cells"));
+    summary["time_steps"] = 400;
+    EXPECT_TRUE(has(page_of(summary), "periodic flow on the cells"));
+}
+
 TEST(Page, SaysWhatResultsHaveNone) {
     const ScratchFolder folder;
     EXPECT_THROW(read_results(folder.path()), FileError);
