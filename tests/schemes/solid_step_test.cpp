@@ -114,3 +114,18 @@ TEST(SolidStep, DampingTakesEnergyAndTellsHowMuch) {
     EXPECT_GT(system.contacts[0]->report().damping_loss, 0.005 * start.energy);
     EXPECT_NEAR(end.energy + end.losses, start.energy, 0.01 * start.energy);
 }
+
+TEST(SolidStep, WhatIsNoLongerRelaxedIsNoLongerSlowedDown) {
+    SolidSystem system = make_blocks(30);
+    system.is_relaxed = true;
+    const double dt = choose_strides(system);
+    int k = 0;
+    const auto drag_after = [&](int steps) {
+        for (const int end = k + steps; k < end; ++k) solid_step(system, k * dt, dt);
+        return system.parts[1]->body->energy().drag;
+    };
+    const double relaxed = drag_after(40);
+    EXPECT_GT(relaxed, 0);
+    system.is_relaxed = false;
+    EXPECT_EQ(drag_after(40), relaxed);
+}
