@@ -75,7 +75,7 @@ std::string table_of(const std::vector<int>& stops) {
 }
 
 TEST(DeployByContact, GoesOnWithTheSameBitsFromTheMiddleOfTheInflation) {
-    const std::string at_once = table_of({150}), in_parts = table_of({30, 70, 50});   // crimped, released, opening
+    const std::string at_once = table_of({340}), in_parts = table_of({30, 210, 100});   // at a row, while it is let go, while it opens
     EXPECT_GT(std::count(at_once.begin(), at_once.end(), '\n'), 100);
     EXPECT_EQ(at_once, in_parts);
 }

@@ -103,7 +103,8 @@ private:
 class Pass {
 public:
     Pass(SolidSurface& own, SolidSurface& other, const ContactNumerics& numerics)
-        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), hits_(own.size()), is_in_(own.size()), free_(own.size()), touches_(own.size()), losses_(own.size()) {
+        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), hits_(own.size()), is_in_(own.size()),
+          free_(own.size()), touches_(own.size()), losses_(own.size()) {
         for (std::size_t v = 0; v < other.size(); ++v) lightest_ = std::min(lightest_, other.mass(v));
     }
 

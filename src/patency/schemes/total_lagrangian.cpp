@@ -276,11 +276,12 @@ private:
                 if constexpr (is_damped) damping_power_[i] = scale * double(power);
             };
             const auto& own = stress_.own_force;
+            const auto with_own = [&](std::size_t i, T x, T y, T z) { return Vec<T>{x + own[0][i], y + own[1][i], z + own[2][i]}; };
             if constexpr (std::is_same_v<std::decay_t<decltype(s[0])>, T>) {
-                finish(first, {s[0] + own[0][first], s[1] + own[1][first], s[2] + own[2][first]}, s[s.size() - 1]);
+                finish(first, with_own(first, s[0], s[1], s[2]), s[s.size() - 1]);
             } else {
-                for (std::size_t l = 0; l < pairs_.lanes && first + l < p.size(); ++l)
-                    finish(first + l, {s[0][int(l)] + own[0][first + l], s[1][int(l)] + own[1][first + l], s[2][int(l)] + own[2][first + l]}, s[s.size() - 1][int(l)]);
+                for (int l = 0; l < int(pairs_.lanes) && first + std::size_t(l) < p.size(); ++l)
+                    finish(first + std::size_t(l), with_own(first + std::size_t(l), s[0][l], s[1][l], s[2][l]), s[s.size() - 1][l]);
             }
         }, numerics_.loop);
     }

@@ -74,8 +74,9 @@ public:
         tell_plan();
         const auto series = [&](const char* name) { return goes_on ? PvdWriter::resumed(stage.folder.file(name), time()) : PvdWriter(stage.folder.file(name)); };
         stent_series_ = std::make_unique<PvdWriter>(series("stent.pvd")), wall_series_ = std::make_unique<PvdWriter>(series("wall.pvd"));
-        const std::vector<std::string> columns = {"time_s", "phase", "tool_radius_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm", "length_mm",
-                                                  "tool_pressure_pa", "stent_kinetic_j", "stent_internal_j", "stent_plastic_j", "wall_kinetic_j", "wall_internal_j", "penetration_mm"};
+        const std::vector<std::string> columns = {"time_s", "phase", "tool_radius_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm",
+                                                  "length_mm", "tool_pressure_pa", "stent_kinetic_j", "stent_internal_j", "stent_plastic_j", "wall_kinetic_j",
+                                                  "wall_internal_j", "penetration_mm"};
         const auto table = stage.folder.file("deployment.csv");
         table_ = std::make_unique<CsvWriter>(goes_on ? CsvWriter::resumed(table, columns, time()) : CsvWriter(table, columns));
     }
@@ -163,19 +164,20 @@ private:
         if (time() == 0) look(row);
         while (time() < entry.end) {
             const double next = std::min(entry.end, row * (std::floor(time() / row * (1 + 1e-9)) + 1));
-            while (time() < next) {
+            bool is_stopped = false;
+            while (time() < next && !is_stopped) {
                 step_solids(scene_->solids, next);
-                if (stage_.interrupted && stage_.interrupted()) {
-                    write_checkpoint();
-                    say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", time()));
-                    return false;
-                }
+                is_stopped = stage_.interrupted && stage_.interrupted();
             }
-            look(row);
+            if (time() == next) look(row);
             if (stage_.progress)
                 stage_.progress->update({.stage = std::string(name_of(entry.phase)), .fraction = time() / program_.end(), .time = time(), .step = scene_->solids.steps});
             if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY && profile_.mean_diameter >= scene_->place.diameter) stop_load();
-            if (watch_.wall() - last_checkpoint_ > stage_.wall_between_checkpoints) write_checkpoint();
+            if (is_stopped || watch_.wall() - last_checkpoint_ > stage_.wall_between_checkpoints) write_checkpoint();
+            if (is_stopped) {
+                say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", time()));
+                return false;
+            }
         }
         return true;
     }
@@ -212,8 +214,9 @@ private:
     }
     /// What is known of the past.
     std::vector<double*> known_numbers() {
-        std::vector<double*> numbers = {&marks_.crimped_length, &marks_.crimped_diameter, &marks_.opened_diameter, &marks_.opened_length, &marks_.touched, &marks_.stent_ratio,
-                                        &marks_.wall_ratio, &marks_.balloon_pressure, &marks_.deepest, &past_.work, &past_.stored, &past_.friction, &past_.damping};
+        std::vector<double*> numbers = {&marks_.crimped_length, &marks_.crimped_diameter, &marks_.opened_diameter, &marks_.opened_length, &marks_.touched,
+                                        &marks_.stent_ratio, &marks_.wall_ratio, &marks_.balloon_pressure, &marks_.deepest,
+                                        &past_.work, &past_.stored, &past_.friction, &past_.damping};
         if (load_) numbers.insert(numbers.end(), {&load_->stopped, &load_->reached});
         return numbers;
     }

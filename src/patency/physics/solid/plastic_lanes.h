@@ -55,7 +55,8 @@ PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<
         for (int k = 7; k > 0; --k) exponential = plus_unit(number<P>(1.0 / k) * commuting_product(N, exponential), one);
         const Sym<P> after = congruent(result.inverse, commuting_product(b, exponential));
         Sym<P>& now = result.inverse_plastic;
-        for (const auto& [to, from] : {std::pair{&now.xx, &after.xx}, {&now.yy, &after.yy}, {&now.zz, &after.zz}, {&now.xy, &after.xy}, {&now.xz, &after.xz}, {&now.yz, &after.yz}})
+        for (const auto& [to, from] : {std::pair{&now.xx, &after.xx}, {&now.yy, &after.yy}, {&now.zz, &after.zz}, {&now.xy, &after.xy},
+                                       {&now.xz, &after.xz}, {&now.yz, &after.yz}})
             for (int l = 0; l < P::lanes; ++l)
                 if (kept[l] != 1) to->v[l] = (*from)[l];   // the others keep theirs, to the bit
     }
