@@ -74,9 +74,9 @@ std::string table_of(const std::vector<int>& stops) {
     return text_of(folder.file("deployment.csv"));
 }
 
-TEST(DeployByContact, GoesOnWithTheSameBitsFromTheMiddleOfTheInflation) {
-    const std::string at_once = table_of({340}), in_parts = table_of({30, 210, 100});   // at a row, while it is let go, while it opens
-    EXPECT_GT(std::count(at_once.begin(), at_once.end(), '\n'), 100);
+TEST(DeployByContact, GoesOnWithTheSameBits) {
+    const std::string at_once = table_of({340}), in_parts = table_of({30, 210, 100});   // at a row, while it is crimped, while it is let go
+    EXPECT_GT(std::count(at_once.begin(), at_once.end(), '\n'), 50);
     EXPECT_EQ(at_once, in_parts);
 }
 
