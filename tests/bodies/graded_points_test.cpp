@@ -11,6 +11,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/bodies/graded_rows.h"
+#include "patency/shape/distance_shapes.h"
 
 namespace patency {
 
@@ -102,6 +103,37 @@ TEST(GradedPoints, AreEvenInsideAndAsFarApartAsTheFieldAsks) {
         EXPECT_LT(opening_coordinates(lumen.openings[0], p.points[n - 1]).s, -4e-3);
     }
     omp_set_num_threads(threads);
+}
+
+// Of the tapering vessel with narrow pockets in its wall, one and a half spacings wide.
+TEST(GradedPoints, StandApartInPocketsOfTheWall) {
+    Lumen lumen = taper();
+    const SpacingField field = make_spacing_field(lumen, graded);
+    const SignedDistance vessel = lumen.distance;
+    std::vector<SignedDistance> pockets;
+    const double width = 0.45e-3, depth = 3.5e-3;
+    for (double x = 1e-3; x < 3e-3; x += 1e-3) pockets.push_back(box_between({x, -width / 2, 0}, {x + width, width / 2, depth}));
+    lumen.bounds.high.z = depth;
+    lumen.distance = {[=](const Vec3& x) {
+                          DistanceSample deepest = vessel.sample(x);
+                          for (const SignedDistance& pocket : pockets)
+                              if (const DistanceSample there = pocket.sample(x); there.value < deepest.value) deepest = there;
+                          return deepest;
+                      },
+                      lumen.bounds};
+    const GradedPoints p = make_graded_points(lumen, field);
+    GradedRows rows;
+    rows.find(p.points, p.spacing, 1);
+    double nearest = 1;
+    std::size_t in_pockets = 0;
+    for (std::size_t i = 0; i < p.points.size(); ++i) {
+        in_pockets += p.points[i].z > 1.7e-3;
+        for (const std::uint32_t j : rows.row(i))
+            if (j != i && j < p.points.size())
+                nearest = std::min(nearest, 2 * norm(p.points[i] - p.points[j]) / (p.spacing[i] + p.spacing[j]));
+    }
+    EXPECT_GT(in_pockets, 10u);
+    EXPECT_GT(nearest, 0.5);
 }
 
 TEST(GradedPoints, AreTheSameBitsForAnotherNumberOfThreads) {

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "patency/base/errors.h"
 #include "patency/shape/distance_shapes.h"
 #include "patency/shape/exact_distance.h"
+#include "patency/shape/ray_parity.h"
 #include "patency/shape/triangle_tree.h"
 #include "tests/shape/laws.h"
 #include "tests/shape/surfaces.h"
@@ -55,6 +57,17 @@ Errors errors_of(const SignedDistance& grid, const SignedDistance& exact, double
         e.wrong_sides += std::abs(must.value) > 0.05 * voxel && (is.value < 0) != (must.value < 0);
     }
     return e;
+}
+
+/// How often the surface goes around x, by the solid angles of its triangles (van Oosterom & Strackee 1983).
+double winding_number(const Surface& mesh, const Vec3& x) {
+    double sum = 0;
+    for (const auto& [i, j, k] : mesh.triangles) {
+        const Vec3 a = mesh.points[i] - x, b = mesh.points[j] - x, c = mesh.points[k] - x;
+        const double la = norm(a), lb = norm(b), lc = norm(c);
+        sum += 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    }
+    return sum / (4 * std::numbers::pi);
 }
 
 /// The torus around the z axis.
@@ -105,6 +118,42 @@ TEST(ExactDistance, IsThatOfTheNearestOfAllTriangles) {
             least = std::min(least, norm(x - nearest_place(x, mesh.points[a], mesh.points[b], mesh.points[c])));
         EXPECT_NEAR(std::abs(exact.value(x)), least, 1e-15);
     }
+}
+
+// A point dragged along the surface past its neighbours crumples the triangles around it into others, whose normals then point anywhere.
+TEST(ExactDistance, KnowsTheSideBesideACrumple) {
+    const Surface smooth = make_torus_mesh(3e-3, 1e-3, 48, 20);
+    const Vec3 dragged = smooth.points[0];
+    std::vector<Vec3> near = smooth.points;
+    std::sort(near.begin(), near.end(), [&](const Vec3& a, const Vec3& b) { return norm(a - dragged) < norm(b - dragged); });
+    int inside = 0, outside = 0;
+    for (std::size_t k = 6; k < 40; ++k) {
+        Surface mesh = smooth;
+        mesh.points[0] = 0.7 * near[k] + 0.3 * near[k + 2];
+        const SignedDistance crumpled = make_exact_distance(mesh);
+        const double size = norm(mesh.points[0] - dragged);
+        const Vec3 reach{size, size, size};
+        for (const Vec3& x : random_points({dragged - 2 * reach, dragged + 2 * reach}, 500)) {
+            const double turns = winding_number(mesh, x);
+            if (std::abs(turns) > 0.1 && std::abs(turns - 1) > 0.1) continue;   // in a pocket of the crumple
+            const bool is_inside = turns > 0.5;
+            (is_inside ? inside : outside) += 1;
+            EXPECT_EQ(crumpled.value(x) < 0, is_inside) << k << ": " << 1e3 * x.x << " " << 1e3 * x.y << " " << 1e3 * x.z;
+        }
+    }
+    EXPECT_GT(std::min(inside, outside), 1000);
+}
+
+TEST(RayParity, TellsWhatASurfaceEncloses) {
+    const Surface mesh = make_torus_mesh(3e-3, 1e-3, 48, 20);
+    const TriangleTree tree(mesh);
+    const SignedDistance exact = make_exact_distance(mesh);
+    int inside = 0;
+    for (const Vec3& x : random_points(grown(exact.bounds(), 1e-3), 3000)) {
+        inside += exact.value(x) < 0;
+        EXPECT_EQ(is_enclosed(mesh, tree, x), exact.value(x) < 0);
+    }
+    EXPECT_GT(inside, 300);
 }
 
 // Also on the axis, where all triangles are equally far, and with triangles without area among them.

@@ -23,6 +23,7 @@ using namespace relaxation;
 namespace {
 
 constexpr double skin = 0.3;   // rows hold neighbours this much farther than the support, in mean spacings of a pair
+constexpr double crowded = 0.5;   // mean spacings between two points that stand for one
 constexpr double farthest = 0.1;         // that a point goes in one step, in its spacings
 constexpr double linear_within = 0.05;   // of its spacings a point may go before it asks for the distance again
 constexpr int none = -1;
@@ -120,7 +121,7 @@ public:
     std::size_t count() const { return count_; }
 
     RelaxQuality run() {
-        double move = 0, mean_motion = Bounds::infinity;
+        constexpr int steps_after_thinning = 20;   // the neighbours of those taken out close up
         find_spacings();
         for_each_index(count_, [&](std::size_t i) {
             opening_[i] = opening_near(i);
@@ -129,15 +130,8 @@ public:
             settle(i);
         });
         make_rows();
-        for (int step = 0; step < settings_.steps && mean_motion > settings_.tolerance; ++step) {
-            compute_push();
-            move = largest_of(count_, [&](std::size_t i) { return advance(i); });
-            mean_motion =
-                std::sqrt(sum_of(count_, [&](std::size_t i) { return dot(motion_[i], motion_[i]); }) / double(count_));
-            if (2 * moved_since_rows() >= skin) make_rows();
-        }
-        for_each_index(count_, [&](std::size_t i) { settle(i); });
-        make_rows();
+        double move = relax(1, settings_.steps);
+        while (thin_out()) move = relax(steps_after_thinning, steps_after_thinning);
         compute_push();
         return quality(move);
     }
@@ -159,6 +153,42 @@ private:
         Vec3 gradient;
         double good_for;
     };
+
+    // Until the points rest, in `least` to `most` steps. Returns the largest move of the last.
+    double relax(int least, int most) {
+        double move = 0, mean_motion = Bounds::infinity;
+        for (int step = 0; step < least || (step < most && mean_motion > settings_.tolerance); ++step) {
+            compute_push();
+            move = largest_of(count_, [&](std::size_t i) { return advance(i); });
+            mean_motion =
+                std::sqrt(sum_of(count_, [&](std::size_t i) { return dot(motion_[i], motion_[i]); }) / double(count_));
+            if (2 * moved_since_rows() >= skin) make_rows();
+        }
+        for_each_index(count_, [&](std::size_t i) { settle(i); });
+        make_rows();
+        return move;
+    }
+
+    // Two points that a pocket of the wall has pressed together do not part any more, for the slope of the kernel fades
+    // towards its middle: one of them is taken out. Whether there were any.
+    bool thin_out() {
+        std::vector<char> is_out(count_, 0);
+        for (std::uint32_t i = 0; i < count_; ++i)
+            for (const std::uint32_t j : rows_.row(i))
+                if (j < i && !is_out[j] && norm(x_[i] - x_[j]) < crowded * 0.5 * (spacing_[i] + spacing_[j])) is_out[i] = 1;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (is_out[i]) continue;
+            x_[kept] = x_[i], seen_[kept] = seen_[i], motion_[kept] = {};
+            ++kept;
+        }
+        if (kept == count_) return false;
+        count_ = kept;
+        x_.resize(count_), seen_.resize(count_), motion_.resize(count_);
+        spacing_.resize(count_), density_.resize(count_), push_.resize(count_), opening_.resize(count_);
+        make_rows();
+        return true;
+    }
 
     // The field's, by one factor that makes the points fill the lumen.
     void find_spacings() {
@@ -351,7 +381,7 @@ private:
     const LatticeBehindFace face_{false};
     const double factor_ = kernel_factor(false), full_ = lattice_density(false);
     std::vector<Vec3> x_;   // [m]
-    const std::size_t count_;
+    std::size_t count_;
     std::vector<double> spacing_, density_;
     std::vector<Vec3> motion_, push_;   // in spacings of each point
     std::vector<int> opening_;

@@ -86,28 +86,33 @@ void CellMaker::clip_by_neighbours(std::uint32_t i) {
     }
 }
 
-/// Adds the plane of the wall at the corner that reaches out farthest. Returns whether something was cut off.
-bool CellMaker::clip_outermost_corner() {
-    double farthest = outside_allowed;
-    Vec3 corner{};
-    for (const Vec3& c : shape_.corners()) {
-        const double out = cloud_.lumen.distance.value(centre_ + unit_ * c) / unit_;
-        if (out > farthest) farthest = out, corner = c;
-    }
-    if (farthest == outside_allowed) return false;
+/// The plane of the wall at a corner that reaches out of the lumen; none (a length of 0) where it would cut the point itself off.
+CellMaker::Plane CellMaker::wall_at(const Vec3& corner) const {
     const NearestWall wall = find_wall(cloud_.lumen, centre_ + unit_ * corner, unit_);
     const Vec3 place = (wall.place - centre_) / unit_;
-    Plane plane{wall.normal, dot(wall.normal, place), wall_label};
+    const Plane plane{wall.normal, dot(wall.normal, place), wall_label};
     // Round an edge of the wall that juts out the plane there may have the point itself behind it: then one across the
     // way from the point to the wall.
-    if (plane.offset < 0.1) {
-        const double length = norm(place);
-        if (!(length > clearance)) return false;
-        plane = {place / length, length, wall_label};
+    constexpr double behind = 0.1;
+    if (plane.offset >= behind) return plane;
+    const double length = norm(place);
+    return length > clearance ? Plane{place / length, length, wall_label} : Plane{};
+}
+
+/// Adds the plane of the wall at the corner that reaches out farthest, or else at the next one. Returns whether something was cut off.
+bool CellMaker::clip_outermost_corner() {
+    std::vector<std::pair<double, Vec3>> outside;
+    for (const Vec3& corner : shape_.corners()) {
+        const double out = cloud_.lumen.distance.value(centre_ + unit_ * corner) / unit_;
+        if (out > outside_allowed) outside.push_back({out, corner});
     }
+    std::stable_sort(outside.begin(), outside.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     const std::size_t before = planes_.size();
-    clip(plane);
-    return planes_.size() > before;
+    for (const auto& [out, corner] : outside) {
+        if (const Plane plane = wall_at(corner); plane.offset > 0) clip(plane);
+        if (planes_.size() > before) return true;
+    }
+    return false;
 }
 
 void CellMaker::clip_by_walls(const NearestWall& wall) {

@@ -56,6 +56,7 @@ private:
     void clip_by_openings();
     void clip_by_neighbours(std::uint32_t i);
     void clip_by_walls(const NearestWall& wall);
+    Plane wall_at(const Vec3& corner) const;
     bool clip_outermost_corner();
 
     const PointCloud& cloud_;

@@ -163,10 +163,14 @@ void CellBalance::compute_gradients() {
 }
 
 void CellBalance::compute_cell_states(double kappa) {
+    std::vector<double> speed(mesh_.size());
+    for_each_index(mesh_.size(), [&](std::size_t i) { speed[i] = norm(u_[i]); });
     for_each_index(mesh_.size(), [&](std::size_t i) {
+        double fastest = speed[i];
+        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, speed[n.cell]);
         const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
                           (fluid_.density * speed_);
-        const double c = sound_speed(kappa, norm(u_[i]), nu, width_[i]) + rate_ * width_[i];
+        const double c = sound_speed(kappa, fastest, nu, width_[i]) + rate_ * width_[i];
         state_[i] = {p_[i], u_[i], grad_p_[i], grad_u_[i], nu, c};
     });
 }
@@ -345,10 +349,14 @@ void CellBalance::add_openings(const CellVectors& x, CellVectors& y) const {
 }
 
 void CellBalance::apply(const CellVectors& change) {
-    // The pressure gradients of the next residual must see the openings' pressures that belong to the fields: behind a stiff
-    // outlet one that lags would push the blood back by all that the level moved.
-    for (End& end : ends_)
-        if (end.kind != CellEnd::Kind::velocity) end.pressure += end.slope * free_change(end, change);
+    // The gradients of the next residual must see the openings' pressures and flows that belong to the fields: behind a stiff
+    // outlet a pressure that lags would push the blood back by all that the level moved.
+    for (End& end : ends_) {
+        if (end.kind == CellEnd::Kind::velocity) continue;
+        const double free = free_change(end, change), rise = end.slope * free;
+        end.pressure += rise;
+        end.flow += free - end.conductance * rise;
+    }
     for_each_index(mesh_.size(), [&](std::size_t i) {
         p_[i] += double(change[i][0]);
         u_[i] += Vec3{change[i][1], change[i][2], change[i][3]};

@@ -23,7 +23,7 @@ constexpr double runaway = 1e4;   // growth of the residual over the least so fa
 /// Of the pressure's own term in a step. With little of it a step is nearly Newton's, which finds the pressure behind a
 /// lesion at once instead of letting it drain; but far from the answer that throws the blood about.   THEORY.md (18.12)
 double pressure_share(double momentum_residual) {
-    constexpr double most = 0.1, least = 1e-5, near = 0.1;
+    constexpr double most = 1e-3, least = 1e-5, near = 0.1;
     return std::clamp(most * std::pow(momentum_residual / near, 3), least, most);
 }
 

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "patency/base/errors.h"
+#include "patency/shape/ray_parity.h"
+#include "patency/shape/triangle_pairs.h"
 #include "patency/shape/triangle_tree.h"
 
 namespace patency {
@@ -102,6 +104,8 @@ struct ExactSurface {
     std::vector<Leaf> leaves;
     std::vector<std::uint32_t> leaf_of;   // per node of the tree
     std::vector<std::array<Vec3, 7>> normals;   // per triangle and feature; of any length
+    std::vector<bool> crumpled;                 // triangles whose normals do not tell the side
+
 
     explicit ExactSurface(Surface closed)
         : surface(std::move(closed)), tree(surface), leaf_of(tree.nodes().size(), 0), normals(surface.triangles.size()) {
@@ -138,6 +142,24 @@ struct ExactSurface {
                     if (t[c] == start) normals[use.triangle][1 + c] = sum;
             }
         });
+        find_crumpled(uses);
+    }
+
+    /// Those that pass through another or fold back on it, and all that touch them.
+    void find_crumpled(const std::vector<EdgeUse>& uses) {
+        std::vector<bool> at_point(surface.points.size(), false);
+        const auto mark = [&](std::uint32_t triangle) {
+            for (const std::uint32_t point : surface.triangles[triangle]) at_point[point] = true;
+        };
+        for (const TrianglePair& pair : find_crossing_triangles(surface, surface.triangles.size())) mark(pair.a), mark(pair.b);
+        constexpr double folded = -0.5;   // cosine between neighbours' normals, of an edge sharper than 60 degrees: one may lie on the other
+        for_each_edge(std::span<const EdgeUse>(uses), [&](std::span<const EdgeUse> edge) {
+            for (const EdgeUse& use : edge)
+                if (dot(normals[edge[0].triangle][0], normals[use.triangle][0]) < folded) mark(edge[0].triangle), mark(use.triangle);
+        });
+        crumpled.resize(surface.triangles.size());
+        for (std::size_t k = 0; k < crumpled.size(); ++k)
+            for (const std::uint32_t point : surface.triangles[k]) crumpled[k] = crumpled[k] || at_point[point];
     }
 
     std::array<Vec3, 3> corners_of(std::uint32_t triangle) const {
@@ -191,7 +213,9 @@ struct ExactSurface {
     DistanceSample sample(const Vec3& x) const {
         const auto [t, near] = nearest(x);
         const Vec3 n = normals[t][near.feature];
-        const double distance = norm(x - near.place), sign = dot(x - near.place, n) < 0 ? -1 : 1;
+        const double distance = norm(x - near.place);
+        const bool inside = crumpled[t] ? is_enclosed(surface, tree, x) : dot(x - near.place, n) < 0;
+        const double sign = inside ? -1 : 1;
         if (distance == 0) return {0, norm(n) > 0 ? normalized(n) : Vec3{1, 0, 0}, 0};
         return {sign * distance, (sign / distance) * (x - near.place), 0};
     }

@@ -10,7 +10,7 @@ namespace patency {
 
 /// Value and gradient to round-off at any place, a few microseconds each; the curvature is left 0. The sign is that of
 /// the mean normal of the triangles that meet at the nearest place, weighted by their angles there (Baerentzen & Aanaes
-/// 2005), so the surface must not pass through itself. Throws GeometryError if it has an open edge.
+/// 2005); where the surface passes through itself, by rays (ray_parity.h). Throws GeometryError if it has an open edge.
 SignedDistance make_exact_distance(Surface closed);
 
 }   // namespace patency
