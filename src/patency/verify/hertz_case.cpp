@@ -95,7 +95,7 @@ void measure_sphere(SolidScene& scene, const Stop& interrupted, RunData& data) {
     const SolidPart &block = scene.part("lower"), &sphere = scene.part("upper");
     const ElasticModuli m = block.solid.materials[0].moduli();
     const double modulus = contact_modulus(m, sphere.solid.materials[0].moduli()), radius = 0.5 * scene.config.solids[1].shape.diameter,
-                 spacing = scene.config.numerics.spacing, depth = 5 * spacing;
+                 spacing = scene.config.numerics.spacing, depth = 4 * spacing;
     double force = 0;
     for (const Vec3& f : block.surface->force) force -= f.z;
     const double approach = sinking_at(*sphere.body, {0, 0, depth}, 2 * spacing) - sinking_at(*block.body, {0, 0, -depth}, 2 * spacing);
