@@ -19,6 +19,7 @@ namespace {
 struct DeployOptions {
     DeckOptions deck;
     std::string out, mode;
+    bool fresh = false;
 };
 
 /// The deck, with the mode of the command line over it.
@@ -39,8 +40,10 @@ ExitCode run(const DeployOptions& options) {
     const deck::Case config = read(options);
     const int threads = options.deck.apply_threads(config);
     const OutputFolder folder(options.out);
-    folder.clear();
-    const Log log = make_run_log(folder, false);
+    const bool has_mechanics = config.deployment.mode != deck::DeploymentMode::geometric;
+    const bool goes_on = has_mechanics && !options.fresh && folder.has_checkpoint("deploy");
+    if (!goes_on) folder.clear();
+    const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
     const ExitCode code = run_deploy_stage(config, folder, Interruption(folder), log);
     if (code == ExitCode::ok || code == ExitCode::bar_missed)
@@ -54,8 +57,9 @@ void add_deploy_command(CLI::App& program, ExitCode& exit_code) {
     CLI::App* command = program.add_subcommand("deploy", "implant the deck's stent: crimp it, open it in the vessel, let go");
     const auto options = std::make_shared<DeployOptions>();
     options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "the folder for the results; what an earlier run left there is replaced")->required();
+    command->add_option("-o,--out", options->out, "the folder for the results; with mechanics it goes on from a checkpoint there")->required();
     command->add_option("--mode", options->mode, "balloon, radial_load, or geometric: a quick change of shape without mechanics; instead of the deck's");
+    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

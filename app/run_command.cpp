@@ -92,7 +92,7 @@ public:
                 say(stage + ": done before");
                 continue;
             }
-            if (stage == "deploy") here.clear();   // it has no checkpoint: one that was interrupted begins anew
+            if (stage == "deploy" && !here.has_checkpoint("deploy")) here.clear();
             if (stages.size() > 1 || stage != "before") say(fmt::format("--- {} ---", stage));
             const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, interruption_, log_) : run_flow_stage(stage == "after" ? deck_after() : config_, here, interruption_, log_);
             if (code != ExitCode::ok && code != ExitCode::bar_missed) return code;

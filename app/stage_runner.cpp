@@ -72,7 +72,7 @@ bool is_quasi_static(const nlohmann::ordered_json& deploy) {
 
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log) {
     const bool is_done = run_logged(log, [&](Progress& progress) {
-        return run_deploy(config, {.folder = folder, .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress});
+        return run_deploy(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress});
     });
     if (!is_done) return interruption.exit_code();
     if (is_quasi_static(read_summary(folder.file("summary.json"))["deploy"])) return ExitCode::ok;

@@ -101,8 +101,8 @@ Job job_of(const SweepOptions& options, const Variant& variant, int threads) {
     Job job{{options.command, options.deck.path, "-o", folder.string(), "--threads", fmt::format("{}", threads)}, fs::path(options.out) / (variant.row.name + ".txt")};
     for (const std::string& setting : variant.deck.settings) job.arguments.insert(job.arguments.end(), {"--set", setting});
     if (!variant.deck.run.empty()) job.arguments.insert(job.arguments.end(), {"--run", variant.deck.run});
-    const bool knows_fresh = options.command != "estimate" && options.command != "deploy";   // those always begin anew
-    if (options.fresh && knows_fresh) job.arguments.emplace_back("--fresh");
+    if (options.fresh && options.command != "estimate")   // which always begins anew
+        job.arguments.emplace_back("--fresh");
     return job;
 }
 

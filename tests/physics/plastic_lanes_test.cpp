@@ -23,6 +23,9 @@ double distance(const Mat3& a, const Mat3& b) { return std::sqrt(double_dot(a - 
 
 }   // namespace
 
+Sym<P> symmetric(const Mat<P>& m) { return {m.x.x, m.y.y, m.z.z, m.x.y, m.x.z, m.y.z}; }
+Mat<P> full(const Sym<P>& s) { return {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}; }
+
 class PlasticLanesOf : public ::testing::TestWithParam<Hardening> {};
 INSTANTIATE_TEST_SUITE_P(Laws, PlasticLanesOf, ::testing::Values(Hardening{.yield = 172e6, .slope = 1.5e9, .saturation = 0, .rate = 0},
                                                                  Hardening{.yield = 250e6, .slope = 1e8, .saturation = 600e6, .rate = 12}));
@@ -47,15 +50,15 @@ TEST_P(PlasticLanesOf, AreThoseOfOneAlone) {
             F[std::size_t(l)] = (identity<double>() + matrix(l % 2 ? 3e-3 : 1e-5)) * F[std::size_t(l)];
             put(f, l, F[std::size_t(l)]), put(c, l, state[std::size_t(l)].inverse_plastic), a.v[l] = state[std::size_t(l)].strain;
         }
-        const auto packed = stress_by_series(law, f, c, a);
+        const auto packed = stress_by_series(law, f, symmetric(c), a);
         for (int l = 0; l < P::lanes; ++l) {
             const auto alone = law.stress(F[std::size_t(l)], state[std::size_t(l)]);
             ASSERT_LT(packed.distance[l], furthest_series);
-            EXPECT_LT(distance(lane_of(packed.kirchhoff, l), alone.kirchhoff), 1e-11 * law.elastic.shear);
-            EXPECT_LT(distance(lane_of(packed.inverse_plastic, l), alone.state.inverse_plastic), 1e-12);
+            EXPECT_LT(distance(lane_of(full(packed.kirchhoff), l), alone.kirchhoff), 1e-11 * law.elastic.shear);
+            EXPECT_LT(distance(lane_of(full(packed.inverse_plastic), l), alone.state.inverse_plastic), 1e-12);
             EXPECT_NEAR(packed.strain[l], alone.state.strain, 1e-13);
             const bool flows = alone.state.strain > state[std::size_t(l)].strain;
-            if (!flows) EXPECT_EQ(lane_of(packed.inverse_plastic, l), state[std::size_t(l)].inverse_plastic);
+            if (!flows) EXPECT_EQ(lane_of(full(packed.inverse_plastic), l), lane_of(full(symmetric(c)), l));
             flowed += flows, rested += !flows;
             state[std::size_t(l)] = alone.state;
         }

@@ -82,6 +82,32 @@ TEST(StentAxis, PlacesHaveOneSetOfCoordinates) {
     }
 }
 
+TEST(StentAxis, SightIsThatOfTheCoordinatesWhereverItWasSeenLast) {
+    const auto line = helix(5e-3, 0.4, 3, 60);
+    const StentAxis axis(line, 0.5 * length_of(line), 0.3, 12e-3, 1e-3);
+    std::mt19937 engine(4);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::size_t near = 0;
+    for (int k = 0; k < 3000; ++k) {
+        const double reach = k % 10 ? 6e-3 : 0.7 * length_of(line);   // now and then past the ends
+        const StentPoint p{0.6e-3 * (1 + unit(engine)), 3.14 * unit(engine), reach * unit(engine)};
+        const Vec3 x = axis.place(p);
+        const StentPoint at = axis.coordinates(x);
+        std::size_t anywhere = std::size_t(k) % 59;   // it jumps, and it stays
+        const StentAxis::Sight jumped = axis.sight(x, anywhere), seen = axis.sight(x, near), again = axis.sight(x, near);
+        EXPECT_EQ(anywhere, near);
+        for (const auto& s : {jumped, again}) {
+            EXPECT_EQ(s.radius, seen.radius);
+            EXPECT_EQ(s.along, seen.along);
+            EXPECT_EQ(s.outward, seen.outward);
+        }
+        ASSERT_NEAR(seen.radius, at.radius, 1e-14);
+        ASSERT_NEAR(seen.along, at.along, 1e-13);
+        ASSERT_LT(norm(seen.outward - axis.outward(at)) * at.radius, 1e-13);
+        ASSERT_LT(norm(seen.tangent - axis.tangent(at)), 1e-11);
+    }
+}
+
 TEST(StentAxis, LengthsAlongTheLineAreKeptAndThoseBesideItStretched) {
     const double bend = 8e-3;
     const std::vector<Vec3> line = arc(bend, 20e-3, 400);

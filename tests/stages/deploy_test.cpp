@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "patency/config/deck.h"
@@ -55,6 +56,28 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
     const Surface stl = read_surface(folder.file("lumen_after.stl"), "mm"), vtp = read_surface(folder.file("lumen_after.vtp"), "mm");
     ASSERT_EQ(stl.triangles.size(), vtp.triangles.size());
     EXPECT_NEAR(volume(stl), volume(vtp), 1e-5 * volume(vtp));
+}
+
+/// A deployment by contact that is stopped after each of these numbers of steps and goes on: its table.
+std::string table_of(const std::vector<int>& stops) {
+    const deck::Case config = deck::read_case(
+        bifurcation, {"wall={spacing: 0.25 mm, plaque: fills}", "deployment={diameter: 3.3 mm, crimped_diameter: 1.8 mm, steps: 1200, frames: 4}",
+                      "stent={pattern: {rings: 1, crowns: 6, length: 1.2 mm, diameter: 2 mm, crimped_diameter: 1.8 mm, nominal_diameter: 3.3 mm, strut_width: 0.1 mm, "
+                      "strut_thickness: 0.1 mm, crown_radius: 0.15 mm, gap: 0.2 mm, connectors: 3}}"});
+    const Folder out;
+    const OutputFolder folder(out.path);
+    for (const int stop : stops) {
+        int steps = 0;
+        EXPECT_FALSE(run_deploy(config, {.folder = folder, .interrupted = [&] { return ++steps == stop; }}));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder.file("summary.json")));
+    return text_of(folder.file("deployment.csv"));
+}
+
+TEST(DeployByContact, GoesOnWithTheSameBitsFromTheMiddleOfTheInflation) {
+    const std::string at_once = table_of({150}), in_parts = table_of({30, 70, 50});   // crimped, released, opening
+    EXPECT_GT(std::count(at_once.begin(), at_once.end(), '\n'), 100);
+    EXPECT_EQ(at_once, in_parts);
 }
 
 TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {

@@ -21,8 +21,9 @@ struct Hit {
     std::array<double, 3> weights{};   ///< of the element's corners
 };
 
-/// A vertex of one surface against the elements of another.                                              THEORY (21.5)
-Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search) {
+/// A vertex of one surface against the elements of another, the depth negative outside; clearance: how far it is from them at least, if it is not in.
+///                                                                                             THEORY (21.5)
+Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search, double& clearance) {
     const Vec3& x = own.position[vertex];
     const auto& mesh = other.mesh();
     double nearest = search.reach(), side = 0;
@@ -44,6 +45,7 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
         nearest = distance, side = std::abs(out), is_inside = out > 0;
         hit = {distance, distance > 0 ? way / distance : across / norm(across), e, weights};
     }
+    clearance = is_inside ? 0 : nearest;
     if (!is_inside) hit.depth *= -1, hit.normal *= -1;
     return hit;
 }
@@ -103,27 +105,33 @@ private:
 class Pass {
 public:
     Pass(SolidSurface& own, SolidSurface& other, const ContactNumerics& numerics)
-        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), held_(own.size()), hits_(own.size()), touches_(own.size()), losses_(own.size()) {
+        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), held_(own.size()), hits_(own.size()), is_in_(own.size()), free_(own.size()), touches_(own.size()), losses_(own.size()) {
         for (std::size_t v = 0; v < other.size(); ++v) lightest_ = std::min(lightest_, other.mass(v));
     }
 
     void add_forces(double dt) {
-        search_.update();
+        if (search_.update()) free_.assign(own_.size(), {});
         for_each_index(own_.size(), [&](std::size_t v) {
-            if (touches_[v].damper != 0) losses_[v] = damping_loss(touches_[v], approach(v), last_step_);
+            if (is_in_[v] && touches_[v].damper != 0) losses_[v] = damping_loss(touches_[v], approach(v), last_step_);
         });
         for (std::size_t v = 0; v < own_.size(); ++v)
-            if (touches_[v].damper != 0) damping_loss_ += losses_[v];
+            if (is_in_[v] && touches_[v].damper != 0) damping_loss_ += losses_[v];
         last_step_ = dt;
         for_each_index(own_.size(), [&](std::size_t v) {
-            hits_[v] = find_hit(own_, v, other_, search_);
-            const double depth = hits_[v].depth;
-            if (depth > 0 || (depth < 0 && stiffness(v) * depth + held_[v] > 0)) touches_[v] = touch_at(v, dt);
-            else touches_[v] = {}, stick_[v] = {}, held_[v] = 0, hits_[v] = {};
+            Hit hit;
+            if (is_in_[v] || !is_free(v)) {
+                hit = find_hit(own_, v, other_, search_, free_[v].clearance);
+                free_[v].moved = search_.moved();
+            }
+            const bool is_in = hit.depth > 0 || (hit.depth < 0 && stiffness(v) * hit.depth + held_[v] > 0);
+            if (!is_in && !is_in_[v]) return;   // most of them: nothing changes
+            is_in_[v] = is_in;
+            if (is_in) hits_[v] = hit, touches_[v] = touch_at(v, dt);
+            else hits_[v] = {}, touches_[v] = {}, stick_[v] = {}, held_[v] = 0;
         });
         for (std::size_t v = 0; v < own_.size(); ++v) {   // few, in one order: reactions meet at vertices
+            if (!is_in_[v]) continue;
             const Hit& hit = hits_[v];
-            if (hit.depth == 0) continue;
             own_.force[v] += touches_[v].force;
             for (std::size_t k = 0; k < 3; ++k)
                 other_.force[other_.mesh().elements[hit.element][k]] -= hit.weights[k] * touches_[v].force;
@@ -171,6 +179,7 @@ public:
             Hit& hit = hits_[v];
             stick_[v] = state.next_vector(), held_[v] = state.next(), hit.depth = state.next(), hit.normal = state.next_vector(), hit.element = std::uint32_t(state.next());
             for (double& w : hit.weights) w = state.next();
+            is_in_[v] = hit.depth != 0;
             Touch& t = touches_[v];
             t.force = state.next_vector();
             for (double* x : {&t.push, &t.damper, &t.approach, &t.energy}) *x = state.next();
@@ -178,6 +187,12 @@ public:
     }
 
 private:
+    /// How far a vertex was from all elements, and how far either may have moved then, as counted from the last search [m].
+    struct Free {
+        double clearance = 0, moved = 0;
+    };
+    bool is_free(std::size_t v) const { return free_[v].clearance * (1 - 1e-9) > free_[v].moved + search_.moved(); }
+
     /// Against the place of the other surface that it hit.
     Vec3 velocity(std::size_t v) const {
         const Hit& hit = hits_[v];
@@ -204,6 +219,8 @@ private:
     std::vector<Vec3> stick_;
     std::vector<double> held_;   // of the pushes [N]
     std::vector<Hit> hits_;
+    std::vector<std::uint8_t> is_in_;   // whether it is pushed: in, or held
+    std::vector<Free> free_;
     std::vector<Touch> touches_;
     std::vector<double> losses_;
     double friction_loss_ = 0, damping_loss_ = 0, deepest_ = 0, last_step_ = 0, lightest_ = INFINITY;
@@ -252,11 +269,15 @@ RigidContact::RigidContact(SolidSurface& surface, HitOf hit_of, const ContactNum
     : surface_(surface), hit_of_(std::move(hit_of)), numerics_(numerics), stick_(surface.size()), touches_(surface.size()) {}
 
 void RigidContact::add_forces(double time, double dt) {
+    const auto is_nothing = [](const Touch& t) { return t.depth == 0 && t.damping_loss == 0; };
     for_each_index(surface_.size(), [&](std::size_t v) {
-        touches_[v] = touch_at(v, time, dt);
-        surface_.force[v] += touches_[v].force;
+        const Touch now = touch_at(v, time, dt);
+        if (is_nothing(now) && is_nothing(touches_[v])) return;   // most of them
+        touches_[v] = now;
+        surface_.force[v] += now.force;
     });
     for (const Touch& t : touches_) {
+        if (is_nothing(t)) continue;
         friction_loss_ += t.friction_loss, damping_loss_ += t.damping_loss, work_ += t.work;
         deepest_ = std::max(deepest_, t.depth);
     }
@@ -269,7 +290,7 @@ RigidContact::Touch RigidContact::touch_at(std::size_t v, double time, double dt
         then.damper == 0 ? 0.0 : 0.5 * last_step_ * then.damper * (then.approach + then.tool_speed - dot(surface_.velocity[v], then.normal));
     const RigidHit hit = hit_of_(v, surface_.position[v], time);
     if (!(hit.depth > 0)) {
-        stick_[v] = {};
+        if (then.depth > 0) stick_[v] = {};
         return {.damping_loss = loss};
     }
     const double stiffness = penalty_stiffness(surface_.mass(v), numerics_.step);

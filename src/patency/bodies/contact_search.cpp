@@ -88,9 +88,11 @@ void ContactSearch::exclude_near() {
     }
 }
 
-void ContactSearch::update() {
+bool ContactSearch::update() {
     moved_ = farthest(vertices_.position, vertices_then_) + farthest(elements_.position, elements_then_);
-    if (moved_ > margin_) find();
+    if (moved_ <= margin_) return false;
+    find();
+    return true;
 }
 
 void ContactSearch::find() {

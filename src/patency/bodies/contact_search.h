@@ -11,8 +11,8 @@ public:
     /// vertices, elements: may be one surface; then elements nearer than `apart` [m] along the surface are never near.
     ContactSearch(const SolidSurface& vertices, const SolidSurface& elements);
 
-    /// Looks again where something has moved far enough to matter.
-    void update();
+    /// Looks again where something has moved far enough to matter; returns whether it did.
+    bool update();
     /// An element that may come within reach() of a vertex before the next update, and how far away it was when it was looked for [m].
     struct Candidate {
         std::uint32_t element;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "patency/base/smooth_rise.h"
@@ -16,7 +15,7 @@ namespace {
 class ToolShape {
 public:
     ToolShape(RadialTool tool, std::size_t vertices)
-        : tool_(std::move(tool)), along_(vertices, std::numeric_limits<double>::quiet_NaN()), free_(vertices) {}
+        : tool_(std::move(tool)), along_(vertices), piece_(vertices), free_(vertices) {}
 
     void move(double time, double dt) {
         radius_ = tool_.radius(time);
@@ -41,24 +40,23 @@ private:
     static constexpr double share_trusted = 0.5;   // of the distance: an axis that bends changes it a little faster than x
 
     RigidHit look(std::size_t vertex, const Vec3& x) {
-        const bool is_known = !std::isnan(along_[vertex]);   // a vertex stays near where it was
-        const StentPoint at = is_known ? tool_.axis.coordinates(x, along_[vertex]) : tool_.axis.coordinates(x);
+        const StentAxis::Sight at = tool_.axis.sight(x, piece_[vertex]);   // a vertex stays near where it was
         along_[vertex] = at.along;
         const double past = std::abs(at.along) - tool_.length / 2;
         if (tool_.kind == RadialTool::Kind::crimper) {
             if (past > 0) return {.depth = -past};
             if (at.radius <= radius_) return {.depth = at.radius - radius_};
-            const Vec3 out = tool_.axis.outward(at);
-            return {at.radius - radius_, -out, speed_ * out};
+            return {at.radius - radius_, -at.outward, speed_ * at.outward};
         }
-        const double distance = past > 0 ? std::hypot(at.radius, past) : at.radius;
+        const double distance = past > 0 ? std::sqrt(at.radius * at.radius + past * past) : at.radius;
         if (distance >= radius_ || distance == 0) return {.depth = std::min(0.0, radius_ - distance)};
-        Vec3 out = tool_.axis.outward(at);
-        if (past > 0) out = (at.radius / distance) * out + (std::copysign(past, at.along) / distance) * tool_.axis.tangent(at);
+        Vec3 out = at.outward;
+        if (past > 0) out = (at.radius / distance) * out + (std::copysign(past, at.along) / distance) * at.tangent;
         return {radius_ - distance, out, speed_ * out};
     }
     RadialTool tool_;
     std::vector<double> along_;
+    std::vector<std::size_t> piece_;   // of the axis, where each vertex was seen
     std::vector<Free> free_;
     double radius_ = 0, speed_ = 0;
 };

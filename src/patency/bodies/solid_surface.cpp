@@ -8,6 +8,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
+#include "patency/base/weighted_sum.h"
 #include "patency/search/cells.h"
 
 namespace patency {
@@ -117,13 +118,11 @@ void SolidSurface::find_elements_at() {
 }
 
 void SolidSurface::follow(const SolidParticles& particles) {
-    for_each_index(size(), [&](std::size_t v) {
-        Vec3 x{}, u{};
-        for (const Share* s = carriers_.begin(v); s < carriers_.end(v); ++s) {
-            x += s->weight * particles.position[s->index];
-            u += s->weight * particles.velocity[s->index];
-        }
-        position[v] = x, velocity[v] = u, force[v] = {};
+    const Vec3 *x = particles.position.data(), *v = particles.velocity.data();
+    for_each_index(size(), [&](std::size_t k) {
+        WeightedSum places, velocities;
+        for (const Share* s = carriers_.begin(k); s < carriers_.end(k); ++s) places.add(s->weight, x[s->index]), velocities.add(s->weight, v[s->index]);
+        position[k] = places.value(), velocity[k] = velocities.value(), force[k] = {};
     });
 }
 
@@ -144,9 +143,9 @@ void SolidSurface::add_pressure(std::uint16_t face, double pressure) {
 
 void SolidSurface::push(SolidParticles& particles) const {
     for_each_index(carrier_particles_.size(), [&](std::size_t k) {
-        Vec3 sum{};
-        for (const Share* s = carried_.begin(k); s < carried_.end(k); ++s) sum += s->weight * force[s->index];
-        particles.load[carrier_particles_[k]] += sum;
+        WeightedSum sum;
+        for (const Share* s = carried_.begin(k); s < carried_.end(k); ++s) sum.add(s->weight, force[s->index]);
+        particles.load[carrier_particles_[k]] += sum.value();
     });
 }
 

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "patency/base/parallel.h"
+#include "patency/base/weighted_sum.h"
 #include "patency/bodies/cell_hash.h"
 
 namespace patency {
@@ -117,14 +118,14 @@ double SelectiveMass::step_gain() const { return std::sqrt(scaling_); }
 void SelectiveMass::compute_velocity(const std::vector<Vec3>& momentum, SolidParticles& particles) const {
     const double alone = 1 / scaling_;
     for_each_index(mass_.size(), [&](std::size_t k) {
-        Vec3 sum{};
-        for (const Share* s = members_.begin(k); s < members_.end(k); ++s) sum += s->weight * momentum[s->index];
-        together_[k] = ((1 - alone) / mass_[k]) * sum;
+        WeightedSum sum;
+        for (const Share* s = members_.begin(k); s < members_.end(k); ++s) sum.add(s->weight, momentum[s->index]);
+        together_[k] = ((1 - alone) / mass_[k]) * sum.value();
     });
     for_each_index(particles.size(), [&](std::size_t i) {
-        Vec3 v = (alone / particles.mass[i]) * momentum[i];
-        for (const Share* s = patches_.begin(i); s < patches_.end(i); ++s) v += s->weight * together_[s->index];
-        particles.velocity[i] = v;
+        WeightedSum sum;
+        for (const Share* s = patches_.begin(i); s < patches_.end(i); ++s) sum.add(s->weight, together_[s->index]);
+        particles.velocity[i] = (alone / particles.mass[i]) * momentum[i] + sum.value();
     });
 }
 

@@ -20,17 +20,24 @@ template <class T>
 struct StressInput {
     std::array<AlignedVector<T>, 9> sums;   ///< sum w (u_i - u_j) d^T, by rows, in units of the loop
     SymColumns<T> correction;               ///< B, per unit of distance squared
+    std::array<AlignedVector<T>, 3> distances;   ///< sum w d
     AlignedVector<T> hourglass;             ///< c [Pa per unit of distance squared]
     double displacement_scale = 1;          ///< the unit of displacements in that of distances
 };
 
-/// The stress of one material's particles for the force loop, A = c (F - 1) - P B, into the first three places of the
-/// three quads of each, THEORY (20.8); plastic particles take their step. Returns the first particle that is inside out
+/// What the loop that sums forces needs of it: A = c (F - 1) - P B.                                     THEORY (20.8)
+template <class T>
+struct StressOutput {
+    std::array<AlignedVector<Quad<T>>, 3> rows;    ///< of A, in three of four places
+    std::array<AlignedVector<T>, 3> own_force;     ///< A sum w d
+};
+
+/// The stress of one material's particles; plastic particles take their step. Returns the first particle that is inside out
 /// (det F <= 0, or no number), or no_particle.
 template <class T>
 std::uint32_t compute_stress(const SolidMaterial& material, const std::vector<std::uint32_t>& members,
                              const StressInput<T>& input, SolidParticles& particles,
-                             std::array<AlignedVector<Quad<T>>, 3>& stress);
+                             StressOutput<T>& stress);
 
 inline constexpr std::uint32_t no_particle = UINT32_MAX;
 

@@ -26,17 +26,20 @@ constexpr double flattest = 1e-3;   // det of the moment over its mean cubed; 1 
 /// is curvature, which the flow of the metal should: at 1 it took a fifth of the work of opening a ring of crowns.
 constexpr double strain_ahead = 10;
 
-template <class T, bool is_steep>
+/// w: t^3, or steeper t^6.                                                                            THEORY (20.1)
+double weight(SolidWeights weights, double t) {
+    const double t3 = t * t * t;
+    return weights == SolidWeights::steep ? t3 * t3 : t3;
+}
+
+/// Distances are in spacings, displacements in fixed point where numbers are floats.
+template <class T>
 class TotalLagrangianBody final : public SolidBody {
 public:
-    TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics)
-        : SolidBody(solid, numerics), frame_(make_frame()), scale_(pair_scale<T>(frame_, numerics.kernel().support())) {
-        SolidParticles& p = particles();
-        p.take(cells_.find_order(frame_, numerics.spacing, {p.reference.data(), p.size()}));
-        cells_.index(frame_, numerics.spacing, {p.reference.data(), p.size()});
-        rows_.find_own(frame_, cells_, numerics.kernel().support(), native_lanes<T>);
+    TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics) : SolidBody(solid, numerics), distance_unit_(numerics.spacing) {
         if constexpr (sizeof(T) == 4) displacement_unit_ = numerics.spacing / displacement_quanta_per_spacing;
         is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(), [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
+        find_pairs();
         make_records();
         correct_gradients();
         sort_members();
@@ -65,7 +68,7 @@ public:
     }
 
     Mat3 deformation(std::size_t i) const override { return is_deformed_ ? deformation_gradient(input_, i) : identity<double>(); }
-    double mean_neighbours() const override { return double(rows_.pair_count()) / double(std::max<std::size_t>(1, rows_.member_count())); }
+    double mean_neighbours() const override { return double(pairs_.pair_count()) / double(std::max<std::size_t>(1, pairs_.size())); }
 
     /// The body's, and the deformation as it was computed last: the next stable step is told by it.
     std::vector<double> state() const override {
@@ -82,6 +85,7 @@ public:
         displacement_unit_ = *at++, input_.displacement_scale = *at++, is_deformed_ = *at++ != 0;
         for (auto& column : input_.sums)
             for (std::size_t i = 0; i < n; ++i) column[i] = T(*at++);
+        for (std::size_t i = 0; i < n; ++i) input_.hourglass[i] = T(hourglass_modulus(i)), softened_at_[i] = particles().plastic_strain[i];
     }
 
 private:
@@ -98,30 +102,53 @@ private:
         return Frame(low - margin, high + margin, support);
     }
 
-    void make_records() {
-        const SolidParticles& p = particles();
-        const std::size_t n = p.size();
-        geometry_.reset(n + 1), displacement_.reset(n + 1);
-        for (auto& row : stress_) row.reset(n + 1, zero_record<T>());
-        for (auto& column : input_.sums) column.reset(n);
-        if (is_metal_) stretching_.reset(n);
-        for (auto& column : input_.correction) column.reset(n);
-        input_.hourglass.reset(n);
-        elastic_hourglass_.resize(n);
-        damping_power_.assign(n, 0);
-        for_each_index(n, [&](std::size_t i) {
-            geometry_[i] = position_record<T>(frame_, p.reference[i], T(p.volume[i] / numerics_.cell()));
+    /// Neighbours, and the order of the particles in which they are packed.
+    void find_pairs() {
+        SolidParticles& p = particles();
+        const Frame frame = make_frame();
+        const double support = numerics_.kernel().support();
+        Cells cells;
+        Neighbours found;
+        p.take(cells.find_order(frame, numerics_.spacing, {p.reference.data(), p.size()}));
+        cells.index(frame, numerics_.spacing, {p.reference.data(), p.size()});
+        found.find_own(frame, cells, support, native_lanes<T>);
+        const FixedRows rows = rows_by_particle(found, p.size());
+        const std::vector<std::uint32_t> order = find_order(rows, [&](std::uint32_t i) { return p.material[i]; });
+        p.take(order);
+        pairs_.make(reordered(rows, order), [&](std::uint32_t i, std::uint32_t j) {
+            const Vec3 d = p.reference[i] - p.reference[j];
+            const double w = p.volume[j] / numerics_.cell() * weight(numerics_.weights, std::max(0.0, 1 - norm(d) / support));
+            const Vec3 wd = (w / distance_unit_) * d;
+            return FixedPair<T>{{T(wd.x), T(wd.y), T(wd.z)}, T(w)};
         });
-        geometry_[n] = dummy_record<T>();
-        displacement_[n] = zero_record<T>();
+    }
+
+    void make_records() {
+        const std::size_t n = particles().size(), padded = pairs_.padded_size();
+        displacement_.reset(padded, zero_record<T>());
+        for (auto& row : stress_.rows) row.reset(padded, zero_record<T>());
+        for (auto& column : stress_.own_force) column.reset(padded, T(0));
+        for (auto& column : input_.sums) column.reset(padded, T(0));
+        for (auto& column : input_.correction) column.reset(padded, T(0));
+        for (auto& column : input_.distances) column.reset(padded, T(0));
+        input_.hourglass.reset(padded, T(0));
+        if (is_metal_) stretching_.reset(padded, T(0));
+        elastic_hourglass_.resize(n), softened_at_.assign(n, 0);
+        if (numerics_.viscosity > 0) damping_power_.assign(padded, 0);
     }
 
     /// B = (sum w d d^T)^-1 and the hourglass modulus.                                        THEORY (20.2), (20.6)
     void correct_gradients() {
         const SolidParticles& p = particles();
         std::vector<std::uint8_t> is_flat(p.size(), 0);
-        sum<solid_terms::Moment<is_steep>>(records_of(geometry_), records_of(geometry_), {}, [&](std::uint32_t i, const std::array<T, 6>& s) {
-            Mat3 M{{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
+        std::vector<Mat3> moment(p.size(), Mat3{});
+        pairs_.for_each_pair([&](std::uint32_t i, std::uint32_t j, const FixedPair<T>& pair) {
+            const Vec3 wd = {double(pair.wd.x), double(pair.wd.y), double(pair.wd.z)};
+            moment[i] += outer(wd, (1 / distance_unit_) * (p.reference[i] - p.reference[j]));
+            input_.distances[0][i] += pair.wd.x, input_.distances[1][i] += pair.wd.y, input_.distances[2][i] += pair.wd.z;
+        });
+        for_each_index(p.size(), [&](std::size_t i) {
+            Mat3 M = 0.5 * (moment[i] + transpose(moment[i]));
             const double mean = trace(M) / dimensions();
             if (numerics_.planar) M.z.z = mean;   // of no account: F_zz = 1
             is_flat[i] = !(determinant(M) > flattest * mean * mean * mean);
@@ -131,6 +158,7 @@ private:
             for (std::size_t k = 0; k < 6; ++k) input_.correction[k][i] = T(b[k]);
             const double shear = solid_.materials[std::size_t(p.material[i])].moduli().shear;
             elastic_hourglass_[i] = numerics_.hourglass * shear * mean_correction(i);
+            input_.hourglass[i] = T(hourglass_modulus(i)), softened_at_[i] = p.plastic_strain[i];
         });
         for (std::size_t i = 0; i < p.size(); ++i)
             if (is_flat[i])
@@ -160,33 +188,37 @@ private:
                                      return std::sqrt(m.density * m.moduli().p_wave());
                                  }) / count;
         const double h = numerics_.smoothing_ratio * numerics_.spacing;
-        damping_ = numerics_.viscosity * impedance * h * (dimensions() + 2) / 3 * b / scale_.unit;
+        damping_ = numerics_.viscosity * impedance * h * (dimensions() + 2) / 3 * b / distance_unit_;
     }
 
     /// Records of where the particles are, and of their velocities.
     void write_records() override {
-        SolidParticles& p = particles();
+        double farthest = write_records_with(displacement_unit_);
         if constexpr (sizeof(T) == 4) {
-            const double farthest = largest_of(p.size(), [&](std::size_t i) {
-                const Vec3 u = p.position[i] - p.reference[i];
-                return std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
-            });
+            if (farthest <= largest_fixed * displacement_unit_) return;
             while (farthest > largest_fixed * displacement_unit_) displacement_unit_ *= 2;
+            write_records_with(displacement_unit_);
         }
-        input_.displacement_scale = displacement_unit_ / scale_.unit;
-        for_each_index(p.size(), [&](std::size_t i) {
-            const double c = hourglass_modulus(i);
-            input_.hourglass[i] = T(c);
-            displacement_[i] = displacement_record(p.position[i] - p.reference[i], T(c * input_.displacement_scale));
-            stress_[0][i].d = T(p.velocity[i].x), stress_[1][i].d = T(p.velocity[i].y), stress_[2][i].d = T(p.velocity[i].z);
+    }
+    /// Returns the largest displacement along an axis [m]; if that is too large for the unit the records mean nothing.
+    double write_records_with(double unit) {
+        SolidParticles& p = particles();
+        input_.displacement_scale = unit / distance_unit_;
+        const T scale = T(input_.displacement_scale);
+        const double per_unit = 1 / unit;
+        return largest_of(p.size(), [&](std::size_t i) {
+            const Vec3 u = p.position[i] - p.reference[i], &v = p.velocity[i];
+            displacement_[i] = displacement_record(u, per_unit, scale * input_.hourglass[i]);
+            stress_.rows[0][i].d = T(v.x), stress_.rows[1][i].d = T(v.y), stress_.rows[2][i].d = T(v.z);
+            return std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
         });
     }
-    Quad<T> displacement_record(const Vec3& u, T value) const {
+    static Quad<T> displacement_record(const Vec3& u, double per_unit, T value) {
         if constexpr (sizeof(T) == 4) {
-            const auto fixed = [&](double x) { return std::bit_cast<float>(std::int32_t(std::lrint(x / displacement_unit_))); };
+            const auto fixed = [&](double x) { return std::bit_cast<float>(std::int32_t(std::lrint(x * per_unit))); };
             return {fixed(u.x), fixed(u.y), fixed(u.z), value};
         } else {
-            return {u.x, u.y, u.z, value};
+            return {per_unit * u.x, per_unit * u.y, per_unit * u.z, value};
         }
     }
     /// A metal that flows is less stiff against hourglass modes too.                             THEORY (19.14), (20.6)
@@ -197,12 +229,16 @@ private:
         return elastic_hourglass_[i] * law.secant_share(strain_ahead * a);
     }
 
-    /// What hourglass modes have less of since the stress of this step was computed.                        THEORY (20.16)
+    /// What hourglass modes have less of since the stress of this step was computed; from now on they are as soft as the metal is.
+    ///                                                                                            THEORY (20.16)
     void soften_hourglass() {
-        yielded_ += sum_of(particles().size(), [&](std::size_t i) {
-            if (particles().plastic_strain[i] == 0) return 0.0;
-            const double fell = double(input_.hourglass[i]) - hourglass_modulus(i);
-            return fell > 0 ? 0.5 * particles().volume[i] * fell * unfitted(i, double(stretching_[i])) : 0.0;
+        const SolidParticles& p = particles();
+        yielded_ += sum_of(p.size(), [&](std::size_t i) {
+            if (p.plastic_strain[i] == softened_at_[i]) return 0.0;
+            softened_at_[i] = p.plastic_strain[i];
+            const double before = double(input_.hourglass[i]), now = hourglass_modulus(i);
+            input_.hourglass[i] = T(now);
+            return before > now ? 0.5 * p.volume[i] * (before - now) * unfitted(i, double(stretching_[i])) : 0.0;
         });
     }
 
@@ -214,11 +250,6 @@ private:
         return input_.displacement_scale * input_.displacement_scale * stretching - double_dot(deformation(i) - identity<double>(), S);
     }
 
-    template <class Term, class Finish>
-    void sum(const Records<T, Term::own_extras>& own, const Records<T, Term::extras>& other, const Term& term, const Finish& finish) const {
-        sum_over_neighbours<T>(rows_, scale_, own, other, term, finish, numerics_.loop);
-    }
-
     void sum_deformation() {
         if (is_metal_) sum_deformation_of<true>();
         else sum_deformation_of<false>();
@@ -226,41 +257,47 @@ private:
     }
     template <bool is_metal>
     void sum_deformation_of() {
-        const auto records = records_of(geometry_, displacement_);
-        using Term = solid_terms::Deformation<is_steep, is_metal>;
-        sum<Term>(records, records, {}, [&](std::uint32_t i, const std::array<T, std::size_t(Term::sums)>& s) {
-            for (std::size_t k = 0; k < 9; ++k) input_.sums[k][i] = s[k];
-            if constexpr (is_metal) stretching_[i] = s[9];
-        });
+        pairs_.template sum<solid_terms::Deformation<is_metal>>({displacement_.data()}, {displacement_.data()}, {}, [&](std::size_t i, const auto& s) {
+            for (std::size_t k = 0; k < 9; ++k) store(s[k], &input_.sums[k][i]);
+            if constexpr (is_metal) store(s[9], &stretching_[i]);
+        }, numerics_.loop);
     }
 
     template <bool is_damped>
     void sum_force() {
         SolidParticles& p = particles();
-        const auto records = records_of(geometry_, displacement_, stress_[0], stress_[1], stress_[2]);
-        const double per_unit = 1 / scale_.unit;
-        using Term = solid_terms::Force<is_steep, is_damped>;
-        sum<Term>(records, records, Term{input_.displacement_scale, damping_}, [&](std::uint32_t i, const std::array<T, std::size_t(Term::sums)>& s) {
-            const double scale = p.volume[i] * per_unit;
-            p.force[i] = scale * Vec3{double(s[0]), double(s[1]), double(s[2])};
-            if constexpr (is_damped) damping_power_[i] = scale * double(s[3]);
-        });
+        const std::array<const Quad<T>*, 4> records = {displacement_.data(), stress_.rows[0].data(), stress_.rows[1].data(), stress_.rows[2].data()};
+        const double per_unit = 1 / distance_unit_;
+        using Term = solid_terms::Force<is_damped>;
+        pairs_.template sum<Term>(records, records, Term{input_.displacement_scale, damping_}, [&](std::size_t first, const auto& s) {
+            const auto finish = [&](std::size_t i, const Vec<T>& pairs, T power) {
+                const double scale = p.volume[i] * per_unit;
+                p.force[i] = scale * Vec3{double(pairs.x), double(pairs.y), double(pairs.z)};
+                if constexpr (is_damped) damping_power_[i] = scale * double(power);
+            };
+            const auto& own = stress_.own_force;
+            if constexpr (std::is_same_v<std::decay_t<decltype(s[0])>, T>) {
+                finish(first, {s[0] + own[0][first], s[1] + own[1][first], s[2] + own[2][first]}, s[s.size() - 1]);
+            } else {
+                for (std::size_t l = 0; l < pairs_.lanes && first + l < p.size(); ++l)
+                    finish(first + l, {s[0][int(l)] + own[0][first + l], s[1][int(l)] + own[1][first + l], s[2][int(l)] + own[2][first + l]}, s[s.size() - 1][int(l)]);
+            }
+        }, numerics_.loop);
     }
 
     /// Half of c V sum w |e|^2, in which the deviations e from a linear deformation are those of its best fit.
     ///                                                                                            THEORY (20.7)
     double hourglass_energy() const override {
         const SolidParticles& p = particles();
-        std::vector<double> energy(p.size());
-        const auto records = records_of(geometry_, displacement_);
-        sum<solid_terms::Stretching<is_steep>>(records, records, {}, [&](std::uint32_t i, const std::array<T, 1>& s) {
-            energy[i] = 0.5 * p.volume[i] * double(input_.hourglass[i]) * unfitted(i, double(s[0]));
-        });
-        return sum_of(p.size(), [&](std::size_t i) { return energy[i]; });
+        AlignedVector<T> stretching;
+        stretching.reset(pairs_.padded_size());
+        pairs_.template sum<solid_terms::Stretching>({displacement_.data()}, {displacement_.data()}, {},
+                                                     [&](std::size_t i, const auto& s) { store(s[0], &stretching[i]); }, numerics_.loop);
+        return sum_of(p.size(), [&](std::size_t i) { return 0.5 * p.volume[i] * double(input_.hourglass[i]) * unfitted(i, double(stretching[i])); });
     }
 
     double viscous_power() const override {   // a pair is in two sums
-        return 0.5 * sum_of(damping_power_.size(), [&](std::size_t i) { return damping_power_[i]; });
+        return 0.5 * sum_of(particles().size(), [&](std::size_t i) { return damping_power_[i]; });
     }
 
     [[noreturn]] void report_inside_out(std::uint32_t i, double time) const {
@@ -272,30 +309,22 @@ private:
                                         determinant(deformation_gradient(input_, i))));
     }
 
-    Frame frame_;
-    PairScale scale_;
-    Cells cells_;
-    Neighbours rows_;
-    AlignedVector<Quad<T>> geometry_, displacement_;   // (X, volume), (u, hourglass modulus)
-    AlignedVector<T> stretching_;                      // sum w |u_i - u_j|^2, of metals
-    std::array<AlignedVector<Quad<T>>, 3> stress_;     // (row of A, component of v)
+    FixedPairs<T> pairs_;
+    AlignedVector<Quad<T>> displacement_;   // (u, hourglass modulus)
+    AlignedVector<T> stretching_;           // sum w |u_i - u_j|^2, of metals
+    StressOutput<T> stress_;                // with a component of the velocity as fourth of each row
     StressInput<T> input_;
     std::vector<std::vector<std::uint32_t>> members_;  // by material
-    std::vector<double> elastic_hourglass_, damping_power_;
-    double displacement_unit_ = 1, damping_ = 0;
+    std::vector<double> elastic_hourglass_, softened_at_, damping_power_;   // softened_at_: the plastic strain that the hourglass modulus is for
+    double distance_unit_, displacement_unit_ = distance_unit_, damping_ = 0;   // m, m, D of the loop
     bool is_deformed_ = false, is_metal_ = false;
 };
-
-template <class T>
-std::unique_ptr<SolidBody> make_body_of(Solid& solid, const SolidNumerics& numerics) {
-    if (numerics.weights == SolidWeights::steep) return std::make_unique<TotalLagrangianBody<T, true>>(solid, numerics);
-    return std::make_unique<TotalLagrangianBody<T, false>>(solid, numerics);
-}
 
 }   // namespace
 
 std::unique_ptr<SolidBody> make_solid_body(Solid& solid, const SolidNumerics& numerics) {
-    return numerics.precision == Precision::double_precision ? make_body_of<double>(solid, numerics) : make_body_of<float>(solid, numerics);
+    if (numerics.precision == Precision::double_precision) return std::make_unique<TotalLagrangianBody<double>>(solid, numerics);
+    return std::make_unique<TotalLagrangianBody<float>>(solid, numerics);
 }
 
 }   // namespace patency

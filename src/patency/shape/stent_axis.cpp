@@ -110,7 +110,6 @@ Vec3 StentAxis::place(const StentPoint& p) const {
 }
 
 StentAxis::Foot StentAxis::nearest_foot(const Vec3& x, std::size_t begin, std::size_t end) const {
-    // On a piece a quadratic equation, as place and tangent are linear there.
     Foot foot{0, Bounds::infinity};
     const auto take = [&](double at, double distance) {
         if (distance < foot.distance) foot = {at, distance};
@@ -122,14 +121,47 @@ StentAxis::Foot StentAxis::nearest_foot(const Vec3& x, std::size_t begin, std::s
         take(last.along + past, norm(x - last.at - past * last.tangent));
     for (std::size_t k = begin; k < end; ++k) {
         const Station &a = stations_[k], &b = stations_[k + 1];
-        const Vec3 step = b.at - a.at, turn = b.tangent - a.tangent, d = x - a.at;
-        const double c0 = dot(d, a.tangent), c1 = dot(d, turn) - dot(step, a.tangent), c2 = -dot(step, turn);
-        const double square = c1 * c1 - 4 * c2 * c0;
-        if (c0 < 0 || square < 0) continue;
-        const double part = 2 * c0 / (-c1 + std::sqrt(square));
-        if (part >= 0 && part <= 1) take(a.along + part * (b.along - a.along), norm(d - part * step));
+        const double part = foot_on(k, x);
+        if (part >= 0 && part <= 1) take(a.along + part * (b.along - a.along), norm(x - a.at - part * (b.at - a.at)));
     }
     return foot;
+}
+
+/// The share of a piece at which x lies in the normal plane: a quadratic equation, as place and tangent are linear there. Below 0 or
+/// above 1: before or behind it; not a number: nowhere.
+double StentAxis::foot_on(std::size_t piece, const Vec3& x) const {
+    const Station &a = stations_[piece], &b = stations_[piece + 1];
+    const Vec3 step = b.at - a.at, turn = b.tangent - a.tangent, d = x - a.at;
+    const double c0 = dot(d, a.tangent), c1 = dot(d, turn) - dot(step, a.tangent), c2 = -dot(step, turn);
+    return c0 < 0 ? -1 : 2 * c0 / (-c1 + std::sqrt(c1 * c1 - 4 * c2 * c0));
+}
+
+StentAxis::Sight StentAxis::sight(const Vec3& x, std::size_t& piece) const {
+    const std::size_t last = stations_.size() - 2;
+    const auto from = [&](double radius, const Vec3& away, const Vec3& tangent, double along) {
+        return Sight{radius, along, radius > 0 ? away / radius : Vec3{}, tangent};
+    };
+    const auto past_end = [&](const Station& end) {
+        const double past = dot(x - end.at, end.tangent);
+        const Vec3 away = x - end.at - past * end.tangent;
+        return from(norm(away), away, end.tangent, end.along + past);
+    };
+    constexpr int pieces_walked = 4;
+    for (int k = 0; k < 2 * pieces_walked; ++k) {
+        if (k == pieces_walked) piece = piece_at(coordinates(x).along);   // it came from far away
+        const double part = foot_on(piece, x);
+        if (part >= 0 && part <= 1) {
+            const Station &a = stations_[piece], &b = stations_[piece + 1];
+            const Vec3 away = x - a.at - part * (b.at - a.at);
+            return from(norm(away), away, normalized(a.tangent + part * (b.tangent - a.tangent)), a.along + part * (b.along - a.along));
+        }
+        if (part < 0 && piece == 0) return past_end(stations_.front());
+        if (part > 1 && piece == last) return past_end(stations_.back());
+        if (part < 0) --piece;
+        if (part > 1) ++piece;
+    }
+    const StentPoint at = coordinates(x);   // at a corner of the line, between two normal planes
+    return {at.radius, at.along, outward(at), tangent(at)};
 }
 
 StentPoint StentAxis::seen_from(const Vec3& x, double along) const {

@@ -35,6 +35,14 @@ public:
     StentPoint coordinates(const Vec3& x) const;
     /// The same, looked for first within two points of the line around `along` [m]: fast for a place that moves little.
     StentPoint coordinates(const Vec3& x, double along) const;
+    /// A place as a tube around the axis sees it.
+    struct Sight {
+        double radius, along;    ///< as of coordinates
+        Vec3 outward, tangent;   ///< unit
+    };
+    /// Fast for a place that moves little: `piece` of the axis, from 0, is where it was seen last, and then where it is now. A place on
+    /// the axis is seen along no direction.
+    Sight sight(const Vec3& x, std::size_t& piece) const;
     Vec3 outward(const StentPoint& p) const;   ///< unit, away from the axis
     Vec3 tangent(const StentPoint& p) const;   ///< unit, along the axis
     /// Length along there over length along the axis: THEORY (16.5).
@@ -54,6 +62,7 @@ private:
         double along, distance;
     };
     Foot nearest_foot(const Vec3& x, std::size_t first, std::size_t last) const;
+    double foot_on(std::size_t piece, const Vec3& x) const;
     StentPoint seen_from(const Vec3& x, double along) const;
     Frame frame_at(double along) const;
 

@@ -13,13 +13,16 @@ namespace patency {
 
 struct DeployStage {
     const OutputFolder& folder;
-    std::function<bool()> interrupted = {};     ///< asked now and then
+    std::string binary_hash = {};             ///< of the program: another one would not go on with the same bits
+    std::function<bool()> interrupted = {};   ///< asked after every step
     Log log = no_log;
     Progress* progress = nullptr;
+    double wall_between_checkpoints = 300;    ///< of a deployment with mechanics [s of wall time]
 };
 
-/// As deployment.mode says. Returns whether it came to its end; interrupted, it leaves frames and tables but no summary.json, and begins
-/// anew when called again. Throws DeckError, GeometryError, FileError, DivergedError.
+/// As deployment.mode says. With mechanics it goes on where the folder's checkpoint of the deployment stands, else begins (the caller
+/// clears the folder to begin anew); the results have the same bits either way. Returns whether it came to its end; interrupted, it
+/// leaves a checkpoint and no summary.json. Throws DeckError, GeometryError, FileError, CheckpointError, DivergedError.
 bool run_deploy(const deck::Case& config, const DeployStage& stage);
 
 }   // namespace patency

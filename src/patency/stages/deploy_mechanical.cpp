@@ -20,7 +20,9 @@
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_results.h"
 #include "patency/stages/deploy_state.h"
+#include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/lumen_after.h"
+#include "patency/stages/solid_checkpoint.h"
 #include "patency/stages/stopwatch.h"
 
 namespace patency {
@@ -47,6 +49,7 @@ struct RadialLoad {
 struct Marks {
     double crimped_length = 0, crimped_diameter = 0;     // before it opens [m]
     double opened_diameter = 0, opened_length = 0;       // before it is let go [m]
+    double touched = 0;                                  // when stent and wall first met while it opens [s]
     double stent_ratio = 0, wall_ratio = 0;              // the largest kinetic over internal while it opens, after the first tenth
     double balloon_pressure = 0;                         // the largest [Pa]
     double deepest = 0;                                  // of stent in wall [m]
@@ -61,22 +64,28 @@ struct ContactAccount {
 class Deployment {
 public:
     Deployment(const deck::Case& config, const DeployStage& stage)
-        : config_(config), stage_(stage), stent_series_(stage.folder.file("stent.pvd")), wall_series_(stage.folder.file("wall.pvd")),
-          table_(stage.folder.file("deployment.csv"),
-                 {"time_s", "phase", "tool_radius_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm", "length_mm", "tool_pressure_pa",
-                  "stent_kinetic_j", "stent_internal_j", "stent_plastic_j", "wall_kinetic_j", "wall_internal_j", "penetration_mm"}) {
-        deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("deploy")) {
+        const bool goes_on = stage.folder.has_checkpoint("deploy");
         scene_ = build_deployment(config);
         program_ = make_deploy_program(scene_->place, config.deployment);
         stent_ = scene_->stent.get(), wall_ = scene_->wall.get();
+        if (goes_on) read_checkpoint();
+        else deck::write_case(config, stage.folder.file("case.resolved.yaml"));
         tell_plan();
+        const auto series = [&](const char* name) { return goes_on ? PvdWriter::resumed(stage.folder.file(name), time()) : PvdWriter(stage.folder.file(name)); };
+        stent_series_ = std::make_unique<PvdWriter>(series("stent.pvd")), wall_series_ = std::make_unique<PvdWriter>(series("wall.pvd"));
+        const std::vector<std::string> columns = {"time_s", "phase", "tool_radius_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm", "length_mm",
+                                                  "tool_pressure_pa", "stent_kinetic_j", "stent_internal_j", "stent_plastic_j", "wall_kinetic_j", "wall_internal_j", "penetration_mm"};
+        const auto table = stage.folder.file("deployment.csv");
+        table_ = std::make_unique<CsvWriter>(goes_on ? CsvWriter::resumed(table, columns, time()) : CsvWriter(table, columns));
     }
 
     bool run() {
-        for (const DeployProgram::Entry& entry : program_.phases) {
-            begin(entry.phase);
-            if (!advance(entry)) return false;
-            end(entry.phase);
+        const auto& phases = program_.phases;
+        for (std::size_t k = contact_steps_.empty() ? 0 : contact_steps_.size() - 1; k < phases.size(); ++k) {
+            if (k == contact_steps_.size()) contact_steps_.push_back(begin(phases[k].phase, {}));
+            if (!advance(phases[k])) return false;
+            end(phases[k].phase);
         }
         finish();
         return true;
@@ -101,15 +110,16 @@ private:
 
     bool has_wall() const { return scene_->wall == nullptr; }
 
-    /// Whatever touches in a phase.
-    void begin(DeployPhase phase) {
+    /// Whatever touches in a phase, for this time step [s]; none: for the stable one, which is returned.
+    double begin(DeployPhase phase, std::optional<double> known_step) {
         SolidSystem& solids = system();
         if (scene_->stent) solids.parts.push_back(std::move(scene_->stent));
         const bool needs_wall = phase != DeployPhase::crimp && phase != DeployPhase::release;
         if (scene_->wall && (needs_wall || program_.predilation)) solids.parts.push_back(std::move(scene_->wall));
-        // What a tool drives goes slowly enough by itself; damping would take the work that is to be done on metal and wall.
-        solids.is_relaxed = phase == DeployPhase::hold || phase == DeployPhase::settle;
-        const double step = stable_step(solids);
+        // What a tool drives goes slowly enough by itself; damping would take the work that is to be done on metal and wall. What is let go
+        // comes to rest.
+        solids.is_relaxed = phase == DeployPhase::release || phase == DeployPhase::hold || phase == DeployPhase::settle;
+        const double step = known_step ? *known_step : stable_step(solids);
         const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
             return make_tool_contact(surface, {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
                                      {.friction = config_.deployment.balloon_friction, .step = step});
@@ -128,6 +138,7 @@ private:
         if (program_.predilation && !predilator_ && phase <= DeployPhase::enter)
             predilator_ = add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.predilation));
         if (phase == DeployPhase::open) open(tool);
+        return step;
     }
 
     template <class Tool>
@@ -149,13 +160,14 @@ private:
 
     bool advance(const DeployProgram::Entry& entry) {
         const double row = program_.end() / looks;
-        if (rows_ == 0) look(row);
+        if (time() == 0) look(row);
         while (time() < entry.end) {
             const double next = std::min(entry.end, row * (std::floor(time() / row * (1 + 1e-9)) + 1));
             while (time() < next) {
                 step_solids(scene_->solids, next);
                 if (stage_.interrupted && stage_.interrupted()) {
-                    say(fmt::format("interrupted at {:.6g} s", time()));
+                    write_checkpoint();
+                    say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", time()));
                     return false;
                 }
             }
@@ -163,8 +175,47 @@ private:
             if (stage_.progress)
                 stage_.progress->update({.stage = std::string(name_of(entry.phase)), .fraction = time() / program_.end(), .time = time(), .step = scene_->solids.steps});
             if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY && profile_.mean_diameter >= scene_->place.diameter) stop_load();
+            if (watch_.wall() - last_checkpoint_ > stage_.wall_between_checkpoints) write_checkpoint();
         }
         return true;
+    }
+
+    /// Between steps: when it is written changes no bit.
+    void write_checkpoint() {
+        CheckpointWriter writer(checkpoint_, origin_);
+        write_solids(writer, system(), "solids");
+        writer.write("time", scene_->solids.time);
+        writer.write("dt", scene_->solids.dt);
+        writer.write("steps", scene_->solids.steps);
+        writer.write("contact_steps", contact_steps_);
+        std::vector<double> known;
+        for (const double* x : known_numbers()) known.push_back(*x);
+        writer.write("known", known);
+        writer.finish();
+        last_checkpoint_ = watch_.wall();
+    }
+    void read_checkpoint() {
+        const CheckpointReader reader(checkpoint_);
+        reader.expect_origin(origin_);
+        const auto steps = reader.read<std::vector<double>>("contact_steps");
+        for (std::size_t k = 0; k < steps.size(); ++k) begin(program_.phases.at(k).phase, steps[k]);
+        contact_steps_ = steps;
+        read_solids(reader, system(), "solids");
+        scene_->solids.time = reader.read<double>("time");
+        scene_->solids.dt = reader.read<double>("dt");
+        scene_->solids.steps = reader.read<std::int64_t>("steps");
+        const auto known = reader.read<std::vector<double>>("known");
+        const auto to = known_numbers();
+        for (std::size_t k = 0; k < to.size(); ++k) *to[k] = known.at(k);
+        measure();
+        say(fmt::format("goes on at {:.6g} s", time()));
+    }
+    /// What is known of the past.
+    std::vector<double*> known_numbers() {
+        std::vector<double*> numbers = {&marks_.crimped_length, &marks_.crimped_diameter, &marks_.opened_diameter, &marks_.opened_length, &marks_.touched, &marks_.stent_ratio,
+                                        &marks_.wall_ratio, &marks_.balloon_pressure, &marks_.deepest, &past_.work, &past_.stored, &past_.friction, &past_.damping};
+        if (load_) numbers.insert(numbers.end(), {&load_->stopped, &load_->reached});
+        return numbers;
     }
 
     void stop_load() {
@@ -197,23 +248,31 @@ private:
         return balloon_ ? program_.balloon(time()) : 0;
     }
 
+    /// The stent where it is at the end of a step.
+    void measure() {
+        stent_->surface->follow(stent_->body->particles());
+        profile_ = measure_stent_profile(seen_from(scene_->place.axis, outer_faces_of(*stent_).places), slices_for(scene_->place.pattern));
+    }
+
     /// A row of the table, now and then a picture.
     void look(double row) {
-        ++rows_;
-        profile_ = measure_stent_profile(seen_from(scene_->place.axis, outer_faces_of(*stent_).places), slices_for(scene_->place.pattern));
+        measure();
         const BodyEnergy stent = energy_of(*stent_), wall = has_wall() ? energy_of(*wall_) : BodyEnergy{};
         Contact* tool = phase_ <= DeployPhase::release ? crimper_ : balloon_;
         const double pressure = tool ? tool->report().pressure : load_ ? load_->pressure(time()) : 0;
         if (stent_on_wall_) marks_.deepest = std::max(marks_.deepest, stent_on_wall_->report().deepest);
         if (phase_ == DeployPhase::open) {
             marks_.balloon_pressure = std::max(marks_.balloon_pressure, pressure);
-            if (time() > program_.open_from + 0.1 * config_.deployment.ramp && !(load_ && load_->stopped < INFINITY))
-                marks_.stent_ratio = std::max(marks_.stent_ratio, stent.ratio()), marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
+            const double first_tenth = 0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
+            const bool is_driven = !(load_ && load_->stopped < INFINITY);
+            if (marks_.touched == 0 && marks_.deepest > 0) marks_.touched = time();
+            if (is_driven && time() > program_.open_from + first_tenth) marks_.stent_ratio = std::max(marks_.stent_ratio, stent.ratio());
+            if (is_driven && marks_.touched > 0 && time() > marks_.touched + first_tenth) marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
         }
-        table_.write_row({time(), double(phase_), 1e3 * tool_radius(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter,
+        table_->write_row({time(), double(phase_), 1e3 * tool_radius(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter,
                           1e3 * profile_.length, pressure, stent.kinetic, stent.internal, stent.plastic, wall.kinetic, wall.internal, 1e3 * marks_.deepest});
         const double frame = program_.end() / config_.deployment.frames;
-        if (stent_series_.size() == 0 || time() >= frame * double(stent_series_.size()) - 0.5 * row) write_frames(nullptr);
+        if (stent_series_->size() == 0 || time() >= frame * double(stent_series_->size()) - 0.5 * row) write_frames(nullptr);
     }
 
     void write_frames(const SignedDistance* lumen) {
@@ -222,8 +281,8 @@ private:
             write_polydata(stage_.folder.root() / file, data, {.time = time()});
             series.add(time(), file);
         };
-        write(stent_series_, stent_picture(*stent_, lumen), "stent");
-        write(wall_series_, wall_picture(*wall_), "wall");
+        write(*stent_series_, stent_picture(*stent_, lumen), "stent");
+        write(*wall_series_, wall_picture(*wall_), "wall");
     }
 
     void end(DeployPhase phase) {
@@ -291,9 +350,12 @@ private:
     StentProfile profile_;
     Marks marks_;
     ContactAccount past_;   // of contacts that are over
-    PvdWriter stent_series_, wall_series_;
-    CsvWriter table_;
-    std::size_t rows_ = 0;
+    std::unique_ptr<PvdWriter> stent_series_, wall_series_;
+    std::unique_ptr<CsvWriter> table_;
+    std::vector<double> contact_steps_;   // of the phases that have begun: what their contacts are as stiff for [s]
+    CheckpointOrigin origin_;
+    std::filesystem::path checkpoint_;
+    double last_checkpoint_ = 0;          // s of wall time
 };
 
 }   // namespace

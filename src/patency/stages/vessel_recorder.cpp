@@ -41,7 +41,7 @@ std::vector<VesselStation> make_stations(const Vessel& vessel, const LocalLength
     return stations;
 }
 
-VesselWall make_vessel_wall(const Vessel& vessel) {
+LumenWall make_lumen_wall(const Vessel& vessel) {
     const Surface& surface = vessel.checked.surface;
     std::vector<char> is_cap(surface.triangles.size(), 0);
     for (const SurfaceOpening& opening : vessel.openings)
@@ -49,13 +49,13 @@ VesselWall make_vessel_wall(const Vessel& vessel) {
     std::vector<std::uint32_t> kept;
     for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
         if (!is_cap[t]) kept.push_back(t);
-    VesselWall wall{part_of(surface, kept), {}};
+    LumenWall wall{part_of(surface, kept), {}};
     wall.places = {wall.surface.points, point_normals(wall.surface)};
     return wall;
 }
 
 VesselRecorder::VesselRecorder(const Scene& scene)
-    : stations_(make_stations(*scene.vessel, [&](const Vec3& x) { return spacing_at(scene, x); })), wall_(make_vessel_wall(*scene.vessel)), cut_(scene) {
+    : stations_(make_stations(*scene.vessel, [&](const Vec3& x) { return spacing_at(scene, x); })), wall_(make_lumen_wall(*scene.vessel)), cut_(scene) {
     const WallHint hint = wall_hint(scene);
     grids_.resize(stations_.size());
     for_each_task(stations_.size(), [&](std::size_t k) { grids_[k] = make_section_grid(stations_[k].plane, hint); });

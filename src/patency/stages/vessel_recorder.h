@@ -21,7 +21,7 @@ struct VesselStation {
 };
 
 /// The part of a vessel's surface that is wall: no caps.
-struct VesselWall {
+struct LumenWall {
     Surface surface;
     WallPlaces places;   ///< its points
 };
@@ -37,7 +37,7 @@ public:
     std::size_t instants() const { return flows_.instants(); }
     const std::vector<VesselStation>& stations() const { return stations_; }
     const SectionFlowMeans& flows() const { return flows_; }    ///< as the stations; pressures as the deck counts them
-    const VesselWall& wall() const { return wall_; }
+    const LumenWall& wall() const { return wall_; }
     const WallShearMeans& shear() const { return shear_; }      ///< as the wall's points; each instant counts 1 s
     std::vector<double> wall_pressure() const;                  ///< mean, as the deck counts it [Pa]
     const VesselCut& cut() const { return cut_; }
@@ -52,7 +52,7 @@ public:
 private:
     std::vector<VesselStation> stations_;
     std::vector<SectionGrid> grids_;
-    VesselWall wall_;
+    LumenWall wall_;
     VesselCut cut_;
     SectionFlowMeans flows_;
     WallShearMeans shear_;
@@ -62,6 +62,6 @@ private:
 /// The sections at which branches are measured: those of the vessel that belong to their branch alone, one every half
 /// millimetre, or two spacings if that is more.
 std::vector<VesselStation> make_stations(const Vessel& vessel, const LocalLength& spacing);
-VesselWall make_vessel_wall(const Vessel& vessel);
+LumenWall make_lumen_wall(const Vessel& vessel);
 
 }   // namespace patency

@@ -20,8 +20,14 @@ struct Hardening {
     double rate = 0;               ///< d [1]
 
     double rise() const { return saturation > yield ? saturation - yield : 0.0; }
-    double stress(double a) const { return yield + slope * a - rise() * std::expm1(-rate * a); }
-    double tangent(double a) const { return slope + rise() * rate * std::exp(-rate * a); }
+    double stress(double a) const {
+        const double linear = yield + slope * a, more = rise();
+        return more > 0 ? linear - more * std::expm1(-rate * a) : linear;
+    }
+    double tangent(double a) const {
+        const double more = rise();
+        return more > 0 ? slope + more * rate * std::exp(-rate * a) : slope;
+    }
     /// Plastic work per volume on the way to a [J/m^3]: the integral of the yield stress.
     double work(double a) const {
         const double saturating = rate > 0 ? rise() * (a + std::expm1(-rate * a) / rate) : 0.0;

@@ -3,19 +3,21 @@
 // the elastic strain is small, as it is in metals.                                              THEORY (19.15)
 #pragma once
 
-#include <array>
+#include <utility>
 
 #include "patency/base/pack.h"
+#include "patency/base/symmetric_matrix.h"
 #include "patency/physics/solid/plastic.h"
 
 namespace patency {
 
 template <class P>
 struct PlasticLanes {
-    Mat<P> kirchhoff;         ///< tau [Pa]
-    Mat<P> inverse_plastic;   ///< C_p^-1 after the step
-    P strain;                 ///< a after the step
+    Sym<P> kirchhoff;         ///< tau [Pa]
+    Sym<P> inverse_plastic;   ///< C_p^-1 after the step
+    P strain;                 ///< a after the step: larger than before where a lane flows
     Mat<P> inverse;           ///< F^-1
+    P determinant;            ///< of F
     P distance;               ///< |b_e - 1| before the flow: a lane above furthest_series counts for nothing
 };
 
@@ -24,16 +26,20 @@ inline constexpr double furthest_series = 0.1;
 
 /// F, C_p^-1 and a before, lane by lane; det F > 0.
 template <class P>
-PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<P>& F, const Mat<P>& inverse_plastic, const P& strain) {
+PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<P>& F, const Sym<P>& inverse_plastic, const P& strain) {
     const P one = number<P>(1), bulk = number<P>(law.elastic.bulk), shear = number<P>(law.elastic.shear);
-    const Mat<P> unit = identity<P>(), b = F * inverse_plastic * transpose(F), X = b - unit, G = inverse(F);
+    const Sym<P> b = congruent(F, inverse_plastic), X = plus_unit(b, -one);
     // ln(1 + X)/2 = artanh Z, Z = X (2 + X)^-1
-    const Mat<P> Z = X * inverse(X + number<P>(2) * unit), ZZ = Z * Z;
-    const Mat<P> e = Z * (unit + ZZ * (number<P>(1.0 / 3) * unit + ZZ * (number<P>(1.0 / 5) * unit + number<P>(1.0 / 7) * ZZ)));
+    const Sym<P> Z = commuting_product(X, inverse(plus_unit(X, number<P>(2)))), ZZ = commuting_product(Z, Z);
+    const Sym<P> fifth = plus_unit(number<P>(1.0 / 7) * ZZ, number<P>(1.0 / 5)), third = plus_unit(commuting_product(ZZ, fifth), number<P>(1.0 / 3));
+    const Sym<P> e = commuting_product(Z, plus_unit(commuting_product(ZZ, third), one));
     const P volume = trace(e);
-    const Mat<P> distortion = e - (number<P>(1.0 / 3) * volume) * unit;
+    const Sym<P> distortion = plus_unit(e, number<P>(-1.0 / 3) * volume);
     const P trial = number<P>(2) * shear * sqrt(number<P>(1.5) * double_dot(distortion, distortion));
-    PlasticLanes<P> result{{}, inverse_plastic, strain, G, sqrt(double_dot(X, X))};
+    const Mat<P> cofactors{cross(F.y, F.z), cross(F.z, F.x), cross(F.x, F.y)};
+    PlasticLanes<P> result{{}, inverse_plastic, strain, {}, dot(F.x, cofactors.x), sqrt(double_dot(X, X))};
+    const P per_volume = one / result.determinant;
+    result.inverse = transpose(Mat<P>{per_volume * cofactors.x, per_volume * cofactors.y, per_volume * cofactors.z});
     P kept = one;   // of the distortion
     bool flows = false;
     for (int l = 0; l < P::lanes; ++l) {
@@ -44,20 +50,16 @@ PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<
         flows = true;
     }
     if (flows) {   // b_e = b exp(N), N = -2 (1 - kept) dev e
-        const Mat<P> N = (number<P>(-2) * (one - kept)) * distortion;
-        Mat<P> exponential = unit;
-        for (int k = 7; k > 0; --k) exponential = unit + number<P>(1.0 / k) * (N * exponential);
-        const Mat<P> after = G * (b * exponential) * transpose(G), symmetric = number<P>(0.5) * (after + transpose(after));
-        const std::array<P*, 9> to = {&result.inverse_plastic.x.x, &result.inverse_plastic.x.y, &result.inverse_plastic.x.z,
-                                      &result.inverse_plastic.y.x, &result.inverse_plastic.y.y, &result.inverse_plastic.y.z,
-                                      &result.inverse_plastic.z.x, &result.inverse_plastic.z.y, &result.inverse_plastic.z.z};
-        const std::array<const P*, 9> from = {&symmetric.x.x, &symmetric.x.y, &symmetric.x.z, &symmetric.y.x, &symmetric.y.y,
-                                              &symmetric.y.z, &symmetric.z.x, &symmetric.z.y, &symmetric.z.z};
-        for (std::size_t k = 0; k < 9; ++k)
+        const Sym<P> N = (number<P>(-2) * (one - kept)) * distortion;
+        Sym<P> exponential{one, one, one, number<P>(0), number<P>(0), number<P>(0)};
+        for (int k = 7; k > 0; --k) exponential = plus_unit(number<P>(1.0 / k) * commuting_product(N, exponential), one);
+        const Sym<P> after = congruent(result.inverse, commuting_product(b, exponential));
+        Sym<P>& now = result.inverse_plastic;
+        for (const auto& [to, from] : {std::pair{&now.xx, &after.xx}, {&now.yy, &after.yy}, {&now.zz, &after.zz}, {&now.xy, &after.xy}, {&now.xz, &after.xz}, {&now.yz, &after.yz}})
             for (int l = 0; l < P::lanes; ++l)
-                if (kept[l] != 1) to[k]->v[l] = (*from[k])[l];   // the others keep theirs, to the bit
+                if (kept[l] != 1) to->v[l] = (*from)[l];   // the others keep theirs, to the bit
     }
-    result.kirchhoff = (bulk * volume) * unit + (number<P>(2) * shear * kept) * distortion;
+    result.kirchhoff = plus_unit((number<P>(2) * shear * kept) * distortion, bulk * volume);
     return result;
 }
 
