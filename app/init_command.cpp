@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 struct InitOptions {
     std::string path, unit, space, inlet, name, out = "case.yaml", budget = "1 h";
     int threads = 0;
-    bool force = false;
+    bool force = false, stent = false;
 };
 
 double parse_budget(const std::string& text) {
@@ -61,6 +61,7 @@ void init(const InitOptions& o) {
     if (!o.unit.empty()) g.unit = o.unit;
     if (!o.space.empty()) g.space = o.space;
     if (!o.inlet.empty()) g.inlet = o.inlet;
+    settings.with_stent = o.stent;
     settings.name = o.name.empty() ? resolved(o.path).stem().string() : o.name;
     if (!is_utf8_text(settings.name)) throw UsageError("the name of the case is no UTF-8 text; give one with --name");
 
@@ -102,6 +103,7 @@ void add_init_command(CLI::App& program, ExitCode&) {
     command->add_option("--threads", o->threads, "how many threads; one per core if not given")
         ->check(CLI::Range(1, 1024));
     command->add_option("-o,--out", o->out, "the deck")->capture_default_str();
+    command->add_flag("--stent", o->stent, "with the stent that it proposes for the worst lesion, for patency run; a comment in the deck if not given");
     command->add_flag("--force", o->force, "replace a deck that is there");
     command->callback([o] { init(*o); });
 }

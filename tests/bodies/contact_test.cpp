@@ -9,6 +9,7 @@
 
 #include "patency/bodies/closest_point.h"
 #include "patency/bodies/solid_shape.h"
+#include "patency/physics/solid/contact.h"
 #include "tests/bodies/surface_load.h"
 
 using namespace patency;
@@ -73,6 +74,39 @@ TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
     };
     const double d = 1e-9, up = energy_at(d), down = energy_at(-2 * d);
     EXPECT_NEAR(-(up - down) / (2 * d), on_ball.y, 1e-5 * on_ball.y);
+}
+
+// A push that lasts comes to ten times its spring's, and keeps on until the vertex would pull; then nothing of it is left.
+TEST_P(Contacts, WhatLastsIsHeldButNeverPulls) {
+    const ContactNumerics numerics{.friction = 0, .damping = 0, .step = step, .holds = true};
+    const auto contact = make_surface_contact(*block.surface, *ball.surface, numerics);
+    const auto push_at = [&](double y, int steps) {
+        Vec3 on_block{}, on_ball{};
+        for (int k = 0; k < steps; ++k) {
+            block.move({}), ball.move({0, k == 0 ? y : 0, 0});
+            contact->add_forces(0, step);
+        }
+        on_block = block.load(), on_ball = ball.load();
+        EXPECT_LT(norm(on_block + on_ball), 1e-13 * norm(on_ball) + 1e-18);
+        return on_ball.y;
+    };
+    const double first = push_at(-0.2e-3, 1), last = push_at(0, 1000);
+    const auto plain = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .damping = 0, .step = step});
+    block.move({}), ball.move({});
+    plain->add_forces(0, step);
+    const double spring = ball.load().y;
+    EXPECT_NEAR(first / spring, 1 + held_ratio / held_steps, 1e-9);
+    EXPECT_NEAR(last / spring, 1 + held_ratio, 1e-6);
+    const auto before = contact->state();
+    const double a_little_out = push_at(0.25e-3, 1);   // farther than it was in
+    EXPECT_GT(a_little_out, 2 * spring);
+    EXPECT_LT(a_little_out, last);
+    EXPECT_GT(contact->report().touching, 0u);
+    EXPECT_EQ(push_at(2.5e-3, 1), 0);
+    EXPECT_EQ(contact->report().touching, 0u);
+    EXPECT_EQ(push_at(-2.5e-3, 1), 0) << "let go is let go";
+    contact->restore(before);
+    EXPECT_NEAR(push_at(0, 1), a_little_out, 1e-9 * a_little_out) << "a checkpoint holds what is held";
 }
 
 TEST_P(Contacts, NothingStandsOff) {

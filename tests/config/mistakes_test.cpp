@@ -64,6 +64,8 @@ TEST(Mistakes, OfSolids) {
     };
     says(solid_deck + "aorta: {pressure: 93 mmHg}\n", "aorta: does not go together with solids");
     says(with("inner_diameter: 3 mm", "inner_diameter: 4 mm"), "must be less than the diameter");
+    says(with("inner_diameter: 3 mm", "inner_diameter: 3 mm, low: [0 mm, 0 mm, 0 mm]"), "shape.low: low and high go together");
+    says(with("inner_diameter: 3 mm", "inner_diameter: 3 mm, low: [0 mm, 0 mm, 0 mm], high: [1 mm, 1 mm, 0 mm]"), "shape.high: must lie above `low`");
     says(with("solid: pin", "solid: pen"), "there is no solid \"pen\"");
     says(with("name: pin", "name: wall"), "a second \"wall\"; names must differ");
     says(with("pressures: [0 mmHg, 100 mmHg]", "pressures: [0 mmHg]"), "there must be one for each of times");
@@ -124,9 +126,20 @@ TEST(Mistakes, KeyInTheWrongPlace) {
 
 TEST(Mistakes, KeyOfAnotherType) {
     EXPECT_EQ(mistakes_in(pipe_with("length: \"15 mm\"", "length: \"15 mm\", gap: \"1 mm\"")),
-              only("4:63: geometry.shape.gap: belongs to type channel, not to tube"));
+              only("4:63: geometry.shape.gap: belongs to type channel or step, not to tube"));
     EXPECT_EQ(mistakes_in(pipe_with("    pressure: \"0 mmHg\"", "    pressure: \"0 mmHg\"\n    resistance: \"1 Wood\"")),
               only("15:17: openings.outlet.resistance: belongs to type resistance, not to pressure"));
+}
+
+TEST(Mistakes, AStepThatIsNone) {
+    const auto with_step = [](const std::string& height, const std::string& at) {
+        return mistakes_in(pipe_with("shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}",
+                                     "shape: {type: step, gap: 3 mm, length: 15 mm, step_height: " + height + ", step_at: " + at + "}"));
+    };
+    EXPECT_EQ(with_step("1.5 mm", "5 mm"), "accepted");
+    EXPECT_NE(with_step("3 mm", "5 mm").find("geometry.shape.step_height: must be less than the gap"), std::string::npos);
+    EXPECT_NE(with_step("1.5 mm", "15 mm").find("geometry.shape.step_at: must be less than the length"), std::string::npos);
+    EXPECT_NE(with_step("2.5 mm", "5 mm").find("fewer than 4 particles across"), std::string::npos);
 }
 
 TEST(Mistakes, MisspelledWord) {

@@ -60,8 +60,11 @@ CellSolution solve(CellBalance& balance, const CellMesh& mesh, CellSolverSetting
 }
 
 // Between walls that slip, on disordered cells: no cell lacks anything.
-TEST(CellBalance, isKeptByAUniformStream) {
-    const Lumen box = make_box({.size = {1e-2, 6e-3, 5e-3}, .sides = {Side::open, Side::wall, Side::wall}});
+// Nor between the planes of symmetry of a slab.
+class UniformStream : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(InSpaceAndInASlab, UniformStream, testing::Bool());
+TEST_P(UniformStream, isKept) {
+    const Lumen box = make_box({.size = {1e-2, 6e-3, 5e-3}, .sides = {Side::open, Side::wall, Side::wall}, .planar = GetParam()});
     const CellMesh mesh = mesh_of(box, 8e-4, 0.3);
     const Vec3 stream{0.3, 0, 0};
     CellFluid slippery = blood;
@@ -75,6 +78,50 @@ TEST(CellBalance, isKeptByAUniformStream) {
     EXPECT_LT(balance.volume_residual(), 1e-12);
     EXPECT_LT(balance.momentum_residual(), 1e-12);
     for (const CellEndState& end : balance.end_states()) EXPECT_NEAR(end.pressure, 70, 1e-9);
+}
+
+/// What the cells of a shaken slab lack of a flow that varies everywhere, in the order of the points given; the slab, the places and
+/// the flow upside down on request.
+std::vector<CellVector> lack_in_a_slab(bool upside_down) {
+    const double gap = 2e-3, speed = 0.05;
+    const Lumen channel = make_channel({.length = 6e-3, .gap = gap});
+    PointSet set = shaken_lattice(channel, 2e-4, 0.3);
+    const auto turned = [&](const Vec3& x) { return upside_down ? Vec3{x.x, gap - x.y, x.z} : x; };
+    for (Vec3& x : set.point) x = turned(x);
+    const CellMesh mesh = make_cell_mesh(set.point, set.spacing, channel);
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity, .velocity = [&](const Vec3& x) { return Vec3{6 * speed * x.y * (gap - x.y) / (gap * gap), 0, 0}; }, .flow = -speed * gap};
+    CellBalance balance(mesh, blood, std::vector{inlet, CellEnd{}}, speed);
+    CellFields fields = still(mesh);
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const Vec3 x = turned(mesh.point[i]);
+        fields.pressure[i] = 3 * std::sin(900 * x.x + 500 * x.y);
+        fields.velocity[i] = speed * Vec3{std::cos(700 * x.y), (upside_down ? -1 : 1) * std::sin(600 * x.x + 300 * x.y), 0};
+    }
+    balance.set_fields(fields);
+    balance.compute_residual(0.5);
+    CellMatrix matrix(mesh);
+    CellVectors right;
+    balance.fill({1}, matrix, right);
+    std::vector<CellVector> lack(mesh.size());
+    for (std::size_t i = 0; i < mesh.size(); ++i) lack[mesh.source[i]] = right[i];
+    return lack;
+}
+
+TEST(CellBalance, staysInThePlaneOfASlab) {
+    float largest = 0;
+    for (const CellVector& r : lack_in_a_slab(false)) largest = std::max(largest, std::abs(r[1]));
+    for (const CellVector& r : lack_in_a_slab(false)) ASSERT_LT(std::abs(r[3]), 1e-9f * largest);
+}
+
+TEST(CellBalance, ofASlabUpsideDownIsUpsideDown) {
+    const auto lack = lack_in_a_slab(false), mirrored = lack_in_a_slab(true);
+    float volume = 0, momentum = 0;
+    for (const CellVector& r : lack) volume = std::max(volume, std::abs(r[0])), momentum = std::max(momentum, std::abs(r[1]));
+    for (std::size_t i = 0; i < lack.size(); ++i) {
+        ASSERT_NEAR(lack[i][0], mirrored[i][0], 1e-6f * volume) << "to the single precision of the right side";
+        ASSERT_NEAR(lack[i][1], mirrored[i][1], 1e-6f * momentum);
+        ASSERT_NEAR(lack[i][2], -mirrored[i][2], 1e-6f * momentum);
+    }
 }
 
 // Every flux leaves one cell and enters another: what the cells lack is what the openings bring, whatever the fields.

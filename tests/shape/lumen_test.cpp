@@ -29,7 +29,7 @@ BranchesShape y_of_tubes(double extension = 2) {
 std::vector<Lumen> lumens_with_openings() {
     return {make_tube({.length = 3, .radius = 1}), make_cone({.length = 3, .inlet_radius = 1, .outlet_radius = 0.5}),
             make_nozzle(nozzle), make_box({{3, 2, 1}, {Side::open, Side::wall, Side::wall}}),
-            make_branches(y_of_tubes()), make_channel({.length = 3, .gap = 1})};
+            make_branches(y_of_tubes()), make_channel({.length = 3, .gap = 1}), make_step({.length = 3, .gap = 1, .height = 0.4, .at = 1.2})};
 }
 
 TEST(Lumen, measuresOfTubeConeAndNozzleAreTheClosedForms) {
@@ -47,6 +47,15 @@ TEST(Lumen, measuresOfTubeConeAndNozzleAreTheClosedForms) {
     EXPECT_EQ(channel.wall_area, 8);
     EXPECT_EQ(channel.openings[0].area, 0.5);
     EXPECT_EQ(channel.openings[0].radius, 0.25);
+    const Lumen step = make_step({.length = 5, .gap = 2, .height = 0.5, .at = 2});
+    EXPECT_EQ(step.volume, 9);
+    EXPECT_EQ(step.wall_area, 10.5);
+    EXPECT_EQ(step.openings[0].area, 1.5);
+    EXPECT_EQ(step.openings[0].centre, (Vec3{0, 1.25, 0}));
+    EXPECT_EQ(step.openings[0].mean_square, 1.5 * 1.5 / 12);
+    EXPECT_EQ(step.openings[1].area, 2);
+    EXPECT_THROW(make_step({.length = 5, .gap = 2, .height = 2, .at = 2}), GeometryError);
+    EXPECT_THROW(make_step({.length = 5, .gap = 2, .height = 1, .at = 5}), GeometryError);
 }
 
 // A smooth wall's error falls with the fourth power of resolution / radius. Along an edge the distance's level sets

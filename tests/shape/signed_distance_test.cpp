@@ -33,6 +33,7 @@ TEST(SignedDistance, isNegativeInsideAndExactForElementaryShapes) {
                                      box_between({0, -1, -0.5}, {1, 1, 0.7}, {false, true, true}),
                                      gap_between_plates(1.5),
                                      round_tube(0.8),
+                                     stepped_gap(1.5, 0.6, 0.4),
                                      body_of_revolution({{-1, 0.4}, {2, 1.2}}, TubeEnds::open),
                                      body_of_revolution({{-1, 0.4}, {2, 1.2}}, TubeEnds::capped),
                                      body_of_revolution(nozzle, TubeEnds::open),
@@ -44,6 +45,18 @@ TEST(SignedDistance, isNegativeInsideAndExactForElementaryShapes) {
     for (const SignedDistance& shape : shapes) {
         expect_exact_distance(shape, around);
         expect_consistent_derivatives(shape, around);
+    }
+}
+
+TEST(SignedDistance, ofAStepIsThatToItsPlates) {
+    const SignedDistance d = stepped_gap(1.5, 0.6, 0.4);
+    const Vec3 way[] = {{-100, 0.6, 0}, {0.4, 0.6, 0}, {0.4, 0, 0}, {100, 0, 0}};
+    for (const Vec3& x : random_points(around, 4000)) {
+        const Vec3 plane{x.x, x.y, 0};
+        double nearest = std::abs(x.y - 1.5);
+        for (int k = 0; k < 3; ++k) nearest = std::min(nearest, distance_to_segment(plane, way[k], way[k + 1]));
+        ASSERT_NEAR(std::abs(d.value(x)), nearest, 1e-12);
+        ASSERT_EQ(d.value(x) < 0, x.y < 1.5 && x.y > 0 && (x.x > 0.4 || x.y > 0.6));
     }
 }
 

@@ -17,6 +17,7 @@
 #include "patency/stages/bed.h"
 #include "patency/stages/build.h"
 #include "patency/stages/init_text.h"
+#include "patency/stages/stent_placement.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/stages/vessels.h"
 
@@ -178,7 +179,7 @@ TEST(InitDeck, ProposesAStentThatFitsTheHealthyLumen) {
     EXPECT_TRUE(plan().stent->covers);
     // With its comment signs taken away it is a deck too.
     std::string text = deck_text(y(), plan(), "/v");
-    for (const char* line : {"# stent:", "#   design:", "#   placement:"}) {
+    for (const char* line : {"# stent:", "#   design:", "#   placement:", "# deployment:", "#   mode:"}) {
         const std::size_t at = text.find(std::string("\n") + line);
         ASSERT_NE(at, text.npos) << line;
         text.erase(at + 1, 2);
@@ -186,6 +187,21 @@ TEST(InitDeck, ProposesAStentThatFitsTheHealthyLumen) {
     EXPECT_EQ(*deck::parse_case(text, "deck", "/v").stent->design, plan().stent->design->name);
     EXPECT_FALSE(
         plan_case(followed(make_stenosed_tube(5 * mm, 60 * mm, 0.5)), settings_of()).stent);   // of 10 mm there is none
+}
+
+TEST(InitDeck, PutsTheStentIntoTheDeckIfAsked) {
+    InitSettings settings = settings_of();
+    settings.with_stent = true;
+    const Vessel tight = followed(make_stenosed_tube(1.5 * mm, 60 * mm, 0.7));   // 0.9 mm: nothing crimped passes
+    const std::string text = deck_text(tight, plan_case(tight, settings), "/v");
+    const deck::Case config = deck::parse_case(text, "deck", "/v");
+    ASSERT_TRUE(config.stent);
+    EXPECT_EQ(config.deployment.mode, deck::DeploymentMode::geometric);
+    EXPECT_TRUE(has(text, "#   predilation: "));
+    EXPECT_NO_THROW(place_stent(config, tight));
+    const Vessel wide = followed(make_stenosed_tube(1.5 * mm, 60 * mm, 0.3));
+    EXPECT_FALSE(has(deck_text(wide, plan_case(wide, settings), "/v"), "predilation"));
+    EXPECT_THROW(plan_case(followed(make_stenosed_tube(1.5 * mm, 60 * mm, 0)), settings), GeometryError);
 }
 
 TEST(InitDeck, OddNamesAreQuoted) {

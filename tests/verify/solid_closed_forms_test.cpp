@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace patency;
 
@@ -56,4 +57,8 @@ TEST(Hertz, LoadWidthAndPressureAreOne) {
     const HertzLine line{0.1, 1e6};
     EXPECT_NEAR(line.peak_pressure(50) * line.half_width(50) * 3.14159265358979 / 2, 50, 1e-9);
     EXPECT_NEAR(hertz_force(4, 3, 0.25), 4 * 2 * 0.125, 1e-12);
+    // At the surface both bodies' parts are the approach; far below a point force's displacement is left.
+    const double young = 5, nu = 0.3, modulus = young / (2 * (1 - nu * nu)), force = hertz_force(4, modulus, 0.25);
+    EXPECT_NEAR(hertz_sinking(4, modulus, force, young, nu, 0), 0.125, 1e-7);
+    EXPECT_NEAR(hertz_sinking(4, modulus, force, young, nu, 100), (1 + nu) * (3 - 2 * nu) * force / (2 * std::numbers::pi * young * 100), 1e-4 * force / 500);
 }

@@ -13,15 +13,15 @@ namespace patency {
 
 namespace {
 
-/// A vertex that is in: where it would come out.
+/// Where a vertex that is in would come out, or one that is out would go in.
 struct Hit {
-    double depth = 0;                 ///< [m]; zero: it is not in
+    double depth = 0;                 ///< [m]; negative: it is out by that; zero: nothing is near
     Vec3 normal;                      ///< of the way out
     std::uint32_t element = 0;
     std::array<double, 3> weights{};   ///< of the element's corners
 };
 
-/// A vertex of one surface against the elements of another; clearance: how far it is from them at least, if it is not in.
+/// A vertex of one surface against the elements of another, the depth negative outside; clearance: how far it is from them at least, if it is not in.
 ///                                                                                             THEORY (21.5)
 Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search, double& clearance) {
     const Vec3& x = own.position[vertex];
@@ -46,7 +46,8 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
         hit = {distance, distance > 0 ? way / distance : across / norm(across), e, weights};
     }
     clearance = is_inside ? 0 : nearest;
-    return is_inside ? hit : Hit{};
+    if (!is_inside) hit.depth *= -1, hit.normal *= -1;
+    return hit;
 }
 
 /// What a vertex feels that is in, and what that costs.
@@ -60,11 +61,12 @@ struct Touch {
 double damping_loss(const Touch& then, double approach_now, double step) { return 0.5 * step * then.damper * (then.approach + approach_now); }
 
 
-/// velocity: against what it touches [m/s]; stick: before the step, then after it [m].                THEORY (21.8), (21.9)
-Touch touch(const ContactNumerics& numerics, double stiffness, double depth, const Vec3& normal, const Vec3& velocity, double dt, Vec3& stick) {
+/// held: of the push, beside the spring's [N]; velocity: against what it touches [m/s]; stick: before the step, then after it [m].
+///                                                                                     THEORY (21.8), (21.9), (21.13)
+Touch touch(const ContactNumerics& numerics, double stiffness, double depth, double held, const Vec3& normal, const Vec3& velocity, double dt, Vec3& stick) {
     const double approach = -dot(velocity, normal);
-    const NormalPush push = normal_push(stiffness, depth, approach, numerics.damping, numerics.step);
-    Touch result{push.force * normal, push.force, push.damper, approach, 0.5 * stiffness * depth * depth, 0};
+    const NormalPush push = normal_push(stiffness, depth + held / stiffness, approach, numerics.damping, numerics.step);
+    Touch result{push.force * normal, push.force, push.damper, approach, 0.5 * stiffness * std::max(0.0, depth) * depth, 0};
     if (numerics.friction > 0) {
         const FrictionState f = friction(stick, dt * velocity, normal, push.force, stiffness, numerics.friction);
         stick = f.stick;
@@ -103,8 +105,8 @@ private:
 class Pass {
 public:
     Pass(SolidSurface& own, SolidSurface& other, const ContactNumerics& numerics)
-        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), hits_(own.size()), is_in_(own.size()),
-          free_(own.size()), touches_(own.size()), losses_(own.size()) {
+        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), held_(own.size()), hits_(own.size()),
+          is_in_(own.size()), free_(own.size()), touches_(own.size()), losses_(own.size()) {
         for (std::size_t v = 0; v < other.size(); ++v) lightest_ = std::min(lightest_, other.mass(v));
     }
 
@@ -118,15 +120,15 @@ public:
         last_step_ = dt;
         for_each_index(own_.size(), [&](std::size_t v) {
             Hit hit;
-            if (!is_free(v)) {
+            if (is_in_[v] || !is_free(v)) {
                 hit = find_hit(own_, v, other_, search_, free_[v].clearance);
                 free_[v].moved = search_.moved();
             }
-            if (hit.depth == 0 && !is_in_[v]) return;   // most of them: nothing changes
-            hits_[v] = hit;
-            is_in_[v] = hit.depth > 0;
-            if (is_in_[v]) touches_[v] = touch_at(v, dt);
-            else touches_[v] = {}, stick_[v] = {};
+            const bool is_in = hit.depth > 0 || (hit.depth < 0 && stiffness(v) * hit.depth + held_[v] > 0);
+            if (!is_in && !is_in_[v]) return;   // most of them: nothing changes
+            is_in_[v] = is_in;
+            if (is_in) hits_[v] = hit, touches_[v] = touch_at(v, dt);
+            else hits_[v] = {}, touches_[v] = {}, stick_[v] = {}, held_[v] = 0;
         });
         for (std::size_t v = 0; v < own_.size(); ++v) {   // few, in one order: reactions meet at vertices
             if (!is_in_[v]) continue;
@@ -141,7 +143,7 @@ public:
 
     void add_to(ContactReport& report, bool is_first) const {
         for (std::size_t v = 0; v < own_.size(); ++v) {
-            report.touching += hits_[v].depth > 0;
+            report.touching += hits_[v].depth != 0;
             report.energy += touches_[v].energy;
             report.normal_force += touches_[v].push;
             report.force += is_first ? touches_[v].force : -touches_[v].force;
@@ -165,7 +167,7 @@ public:
         for (const double x : {friction_loss_, damping_loss_, deepest_, last_step_}) state.add(x);
         for (std::size_t v = 0; v < own_.size(); ++v) {
             const Hit& hit = hits_[v];
-            state.add(stick_[v]), state.add(hit.depth), state.add(hit.normal), state.add(double(hit.element));
+            state.add(stick_[v]), state.add(held_[v]), state.add(hit.depth), state.add(hit.normal), state.add(double(hit.element));
             for (const double w : hit.weights) state.add(w);
             const Touch& t = touches_[v];
             state.add(t.force);
@@ -176,9 +178,9 @@ public:
         for (double* x : {&friction_loss_, &damping_loss_, &deepest_, &last_step_}) *x = state.next();
         for (std::size_t v = 0; v < own_.size(); ++v) {
             Hit& hit = hits_[v];
-            stick_[v] = state.next_vector(), hit.depth = state.next(), hit.normal = state.next_vector(), hit.element = std::uint32_t(state.next());
+            stick_[v] = state.next_vector(), held_[v] = state.next(), hit.depth = state.next(), hit.normal = state.next_vector(), hit.element = std::uint32_t(state.next());
             for (double& w : hit.weights) w = state.next();
-            is_in_[v] = hit.depth > 0;
+            is_in_[v] = hit.depth != 0;
             Touch& t = touches_[v];
             t.force = state.next_vector();
             for (double* x : {&t.push, &t.damper, &t.approach, &t.energy}) *x = state.next();
@@ -202,19 +204,23 @@ private:
     }
     double approach(std::size_t v) const { return -dot(velocity(v), hits_[v].normal); }
 
+    /// With the other's lightest vertex: a mass that changed with the place on it would do work.
+    double stiffness(std::size_t v) const { return penalty_stiffness(1 / (1 / own_.mass(v) + 1 / lightest_), numerics_.step); }
+
     Touch touch_at(std::size_t v, double dt) {
         const Hit& hit = hits_[v];
-        // The other's lightest vertex: a mass that changed with the place on it would do work.
-        const double stiffness = penalty_stiffness(1 / (1 / own_.mass(v) + 1 / lightest_), numerics_.step);
-        return touch(numerics_, stiffness, hit.depth, hit.normal, velocity(v), dt, stick_[v]);
+        const double k = stiffness(v);
+        if (numerics_.holds) held_[v] = held_push(held_[v], k, hit.depth, dt, numerics_.step);
+        return touch(numerics_, k, hit.depth, held_[v], hit.normal, velocity(v), dt, stick_[v]);
     }
 
     SolidSurface &own_, &other_;
     ContactNumerics numerics_;
     ContactSearch search_;
     std::vector<Vec3> stick_;
+    std::vector<double> held_;   // of the pushes [N]
     std::vector<Hit> hits_;
-    std::vector<std::uint8_t> is_in_;   // whether there is a hit
+    std::vector<std::uint8_t> is_in_;   // whether it is pushed: in, or held
     std::vector<Free> free_;
     std::vector<Touch> touches_;
     std::vector<double> losses_;
@@ -289,7 +295,7 @@ RigidContact::Touch RigidContact::touch_at(std::size_t v, double time, double dt
         return {.damping_loss = loss};
     }
     const double stiffness = penalty_stiffness(surface_.mass(v), numerics_.step);
-    const auto t = touch(numerics_, stiffness, hit.depth, hit.normal, surface_.velocity[v] - hit.velocity, dt, stick_[v]);
+    const auto t = touch(numerics_, stiffness, hit.depth, 0, hit.normal, surface_.velocity[v] - hit.velocity, dt, stick_[v]);
     return {t.force, hit.normal, t.push, t.damper, hit.depth, t.energy, t.approach, dot(hit.velocity, hit.normal), t.friction_loss, loss,
             dt * dot(t.force, hit.velocity)};
 }

@@ -209,4 +209,28 @@ SolidFill fill_sphere(const Vec3& centre, double radius, double spacing) {
     return fill;
 }
 
+SolidFill cut_to_box(const SolidFill& fill, const Vec3& low, const Vec3& high) {
+    const auto holds = [&](const Vec3& x) {
+        return x.x >= low.x && x.x <= high.x && x.y >= low.y && x.y <= high.y && x.z >= low.z && x.z <= high.z;
+    };
+    SolidFill cut;
+    for (std::size_t i = 0; i < fill.places.size(); ++i)
+        if (holds(fill.places[i])) cut.places.push_back(fill.places[i]), cut.volumes.push_back(fill.volumes[i]);
+    const SurfaceElements& from = fill.surface;
+    cut.surface.faces = from.faces;
+    constexpr std::uint32_t unused = -1;
+    std::vector<std::uint32_t> number(from.vertices.size(), unused);
+    for (std::size_t e = 0; e < from.elements.size(); ++e) {
+        auto element = from.elements[e];
+        if (!std::all_of(element.begin(), element.end(), [&](std::uint32_t v) { return holds(from.vertices[v]); })) continue;
+        for (std::uint32_t& v : element) {
+            if (number[v] == unused) number[v] = std::uint32_t(cut.surface.vertices.size()), cut.surface.vertices.push_back(from.vertices[v]);
+            v = number[v];
+        }
+        cut.surface.elements.push_back(element);
+        cut.surface.face.push_back(from.face[e]);
+    }
+    return cut;
+}
+
 }   // namespace patency

@@ -25,4 +25,7 @@ SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, d
 /// Face outer.
 SolidFill fill_sphere(const Vec3& centre, double radius, double spacing);
 
+/// What lies in the box between two corners: particles by their places, elements by all their vertices.
+SolidFill cut_to_box(const SolidFill& fill, const Vec3& low, const Vec3& high);
+
 }   // namespace patency

@@ -32,8 +32,8 @@ using Words = std::vector<std::string_view>;
 enum class Mode { steady, periodic };
 inline Words words(Mode) { return {"steady", "periodic"}; }
 
-enum class ShapeType { channel, box, tube, cone, nozzle, branches };
-inline Words words(ShapeType) { return {"channel", "box", "tube", "cone", "nozzle", "branches"}; }
+enum class ShapeType { channel, step, box, tube, cone, nozzle, branches };
+inline Words words(ShapeType) { return {"channel", "step", "box", "tube", "cone", "nozzle", "branches"}; }
 
 enum class BloodLaw { newtonian, carreau_yasuda, casson, power_law };
 inline Words words(BloodLaw) { return {"newtonian", "carreau_yasuda", "casson", "power_law"}; }
@@ -100,8 +100,10 @@ struct Branch {
 /// A shape by its measures. Members that do not belong to the type stay at their defaults.
 struct Shape {
     ShapeType type = ShapeType::channel;
-    double gap = 0;                                     ///< channel: m between the plates (y = 0 and y = gap)
-    double length = 0;                                  ///< channel (along x), tube, cone: m
+    double gap = 0;                                     ///< channel, step: m between the plates (y = 0 and y = gap)
+    double length = 0;                                  ///< channel, step (along x), tube, cone: m
+    double step_height = 0;                             ///< step: m by which the lower plate lies higher at first
+    double step_at = 0;                                 ///< step: m along x to where it drops
     Vec3 size;                                          ///< box: m
     std::array<bool, 3> periodic{false, false, false};  ///< box
     bool planar = false;                                ///< box: two-dimensional, z = 0
@@ -113,7 +115,7 @@ struct Shape {
     Vec3 start;                                         ///< tube, cone, nozzle: m, the axis' first point
     bool operator==(const Shape&) const = default;
 
-    bool is_planar() const { return type == ShapeType::channel || (type == ShapeType::box && planar); }
+    bool is_planar() const { return type == ShapeType::channel || type == ShapeType::step || (type == ShapeType::box && planar); }
 };
 
 struct Extensions {

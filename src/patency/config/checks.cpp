@@ -93,6 +93,10 @@ private:
                    {path + "periodic"});
         }
         expect(norm(s.axis) > 0, path + "axis", "must not be zero");
+        if (s.type == ShapeType::step) {
+            expect(s.step_height < s.gap, path + "step_height", "must be less than the gap", {path + "gap"});
+            expect(s.step_at < s.length, path + "step_at", "must be less than the length", {path + "length"});
+        }
         if (s.type == ShapeType::nozzle) {
             expect(s.sections.size() >= 2, path + "sections", "at least two cross-sections are needed");
             for (std::size_t i = 1; i < s.sections.size(); ++i)
@@ -111,6 +115,7 @@ private:
         double narrowest = 0;
         switch (s.type) {
             case ShapeType::channel: narrowest = s.gap; break;
+            case ShapeType::step: narrowest = s.gap - s.step_height; break;
             case ShapeType::tube: narrowest = s.diameter; break;
             case ShapeType::box: narrowest = std::min(s.size.x, s.size.y); break;
             case ShapeType::cone:
@@ -207,6 +212,10 @@ private:
             expect(planar || norm(s.to - s.from) > 0, path + "to", "is the same point as `from`", {path + "from"});
             expect(s.inner_diameter < s.diameter, path + "inner_diameter", "must be less than the diameter", {path + "diameter"});
         }
+        const std::string end = path + (s.low ? "low" : "high");
+        expect(s.low.has_value() == s.high.has_value(), end, "low and high go together: the corners of a box");
+        expect(!s.low || !s.high || (s.high->x > s.low->x && s.high->y > s.low->y && (planar || s.high->z > s.low->z)), path + "high",
+               "must lie above `low` on every axis", {path + "low"});
         if (s.type == SolidShapeType::sphere) expect(!planar, path + "type", "is not planar; use a cylinder along z with numerics.solid.plane_strain");
         if (s.type == SolidShapeType::stent) {
             expect(!planar, path + "type", "is not planar; numerics.solid.plane_strain is true");

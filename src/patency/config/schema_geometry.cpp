@@ -29,15 +29,19 @@ const Table& table_of<Branch>() {
 
 template <>
 const Table& table_of<Shape>() {
-    const Condition axial = where("type", {"tube", "cone", "nozzle"});
+    const Condition axial = where("type", {"tube", "cone", "nozzle"}), plates = where("type", {"channel", "step"});
     static const Table table = make_table<Shape>("A shape by its measures, instead of a surface.", {
-        row(&Shape::type, {.key = "type", .help = "the kind of shape; channel is planar: flow along x between two plates",
+        row(&Shape::type, {.key = "type", .help = "the kind of shape; planar are channel, flow along x between two plates, and step, whose lower plate drops once",
                            .need = always}),
         row(&Shape::gap, {.key = "gap", .help = "the distance between the plates", .unit = "mm",
-                          .range = above_up_to(0, largest_length), .only = where("type", {"channel"}), .need = always}),
+                          .range = above_up_to(0, largest_length), .only = plates, .need = always}),
         row(&Shape::length, {.key = "length", .help = "the length along the axis", .unit = "mm",
                              .range = above_up_to(0, largest_length), .example = "20 mm",
-                             .only = where("type", {"channel", "tube", "cone"}), .need = always}),
+                             .only = where("type", {"channel", "step", "tube", "cone"}), .need = always}),
+        row(&Shape::step_height, {.key = "step_height", .help = "how much narrower the gap is ahead of the step", .unit = "mm",
+                                  .range = above_up_to(0, largest_length), .example = "1 mm", .only = where("type", {"step"}), .need = always}),
+        row(&Shape::step_at, {.key = "step_at", .help = "the distance from the inlet to the step", .unit = "mm",
+                              .range = above_up_to(0, largest_length), .example = "5 mm", .only = where("type", {"step"}), .need = always}),
         row(&Shape::size, {.key = "size", .help = "the sides along x, y, z; z counts for nothing in a planar box",
                            .unit = "mm", .range = between(0, largest_length), .only = where("type", {"box"}),
                            .need = always}),

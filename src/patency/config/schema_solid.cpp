@@ -29,6 +29,9 @@ const Table& table_of<SolidShape>() {
                                     .range = above_up_to(0, largest_length), .only = round, .need = always}),
         row(&SolidShape::inner_diameter, {.key = "inner_diameter", .help = "the diameter of the hole; 0 if there is none", .unit = "mm",
                                           .range = between(0, largest_length), .only = where("type", {"cylinder"})}),
+        row(&SolidShape::low, {.key = "low", .help = "the lowest corner of a box; what lies out of it is cut off, and has no face there", .unit = "mm",
+                               .range = between(-largest_length, largest_length), .only = round}),
+        row(&SolidShape::high, {.key = "high", .help = "its highest corner", .unit = "mm", .range = between(-largest_length, largest_length), .only = round}),
     });
     return table;
 }

@@ -33,6 +33,7 @@ struct SolidShape {
     Vec3 centre;                 ///< sphere: m
     double diameter = 0;         ///< cylinder, sphere: m
     double inner_diameter = 0;   ///< cylinder: m; 0: it is full
+    std::optional<Vec3> low, high;   ///< cylinder, sphere: corners of a box, m; what lies out of it is cut off
     bool operator==(const SolidShape&) const = default;
 };
 

@@ -33,6 +33,7 @@ public:
     static constexpr std::size_t window = 60;         // steps
     static constexpr double progress = 0.5;           // of the residual in a window, or nothing is gained
     static constexpr double standing = 5e-3;          // swing of the openings in a window that is none, as numerics.convergence has it
+    static constexpr double bearable = 0.05;          // swing around means that are still an answer, marked
 
     void add(double residual, const std::vector<CellEndState>& ends) {
         residuals_.push_back(residual);
@@ -62,6 +63,7 @@ public:
         return std::max(flow / through, high > low ? pressure / (high - low) : 0.0);
     }
     bool is_standing() const { return swing() < standing; }
+    bool is_bearable() const { return swing() < bearable; }
 
 private:
     std::vector<double> residuals_;
@@ -133,8 +135,9 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
             limit = first_limit, courant = std::min(courant, limit);
             watch = {};
         }
-        if (mean.count() > 0 || (watch.is_stalled() && watch.is_standing())) mean.add(balance.fields());
-        if (mean.count() == int(StallWatch::window)) {
+        const bool is_late = step + int(StallWatch::window) > settings.most_iterations;   // the last chance
+        if (mean.count() > 0 || (watch.is_stalled() && (watch.is_standing() || (is_late && watch.is_bearable())))) mean.add(balance.fields());
+        if (mean.count() == int(StallWatch::window) && watch.is_bearable()) {
             balance.set_fields(mean.mean());
             balance.compute_residual(kappa);
             solution.is_settled = true, solution.swing = watch.swing();

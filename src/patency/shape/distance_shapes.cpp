@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = Bounds::infinity;
 
-// The distance to a polyline in the (axial, radial) half-plane: value and slopes there.
+// The distance to a polyline in the (axial, radial) half-plane, or in a plane: value and slopes there.
 struct PlaneSample {
     double value, axial_slope, radial_slope, curvature;
 };
@@ -156,6 +156,19 @@ SignedDistance box_between(const Vec3& low, const Vec3& high, std::array<bool, 3
 }
 
 SignedDistance gap_between_plates(double gap) { return box_between({}, {0, gap, 0}, {false, true, false}); }
+
+SignedDistance stepped_gap(double gap, double height, double at) {
+    const std::vector<Segment> segments = {{0, gap, 1, 0, infinity, -infinity},      // above
+                                           {at, height, -1, 0, infinity},            // below, ahead of the step
+                                           {at, 0, 0, 1, height},                    // the step
+                                           {at, 0, -1, 0, 0, -infinity}};            // below, behind it
+    const Bounds bounds{{-infinity, 0, -infinity}, {infinity, gap, infinity}};
+    return {[=](const Vec3& x) {
+                const PlaneSample s = nearest(segments, x.x, x.y, x.y < gap && x.y > (x.x < at ? height : 0), 1e-14 * gap);
+                return DistanceSample{s.value, {s.axial_slope, s.radial_slope, 0}, s.curvature};
+            },
+            bounds};
+}
 
 SignedDistance body_of_revolution(std::vector<AxialRadius> outline, TubeEnds ends) {
     check_outline(outline);

@@ -23,6 +23,9 @@ SignedDistance box_between(const Vec3& low, const Vec3& high, std::array<bool, 3
 /// The gap between two plates, 0 < y < gap [m], infinite in x and z: |y - gap/2| - gap/2.
 SignedDistance gap_between_plates(double gap);
 
+/// The gap below a plate at y = gap and above one at y = height for x < at, which drops to y = 0 there [m]; infinite in x and z.
+SignedDistance stepped_gap(double gap, double height, double at);
+
 /// One point of a tube's outline: the radius at a position along the x axis.
 struct AxialRadius {
     double axial;    ///< [m]

@@ -113,6 +113,24 @@ Lumen make_channel(const ChannelShape& shape) {
     return make_box({.size = {shape.length, shape.gap, 0}, .sides = {shape.ends, Side::wall, Side::wall}, .planar = true});
 }
 
+Lumen make_step(const StepShape& shape) {
+    expect_positive("length of the channel behind the step", shape.length - shape.at);
+    expect_positive("length of the channel ahead of the step", shape.at);
+    expect_positive("height of the step", shape.height);
+    expect_positive("gap over the step", shape.gap - shape.height);
+    const auto opening = [](std::string name, double x, double low, double high, double out) {
+        const double half = 0.5 * (high - low);
+        return Opening{std::move(name), {x, low + half, 0}, {out, 0, 0}, 2 * half, half, half, true, half * half / 3};
+    };
+    return {.distance = stepped_gap(shape.gap, shape.height, shape.at),
+            .openings = {opening("inlet", 0, shape.height, shape.gap, -1), opening("outlet", shape.length, 0, shape.gap, 1)},
+            .volume = shape.length * shape.gap - shape.at * shape.height,
+            .wall_area = 2 * shape.length + shape.height,
+            .planar = true,
+            .bounds = {{}, {shape.length, shape.gap, 0}},
+            .fit = {shape.length, 0, 0}};
+}
+
 Lumen make_tube(const TubeShape& shape) {
     expect_positive("length of the tube", shape.length);
     expect_positive("radius of the tube", shape.radius);

@@ -85,6 +85,12 @@ struct ChannelShape {
 };
 Lumen make_channel(const ChannelShape& shape);
 
+/// Planar, 0 < x < length below a plate at y = gap and above one at y = height that drops to y = 0 at x = at [m].
+struct StepShape {
+    double length, gap, height, at;
+};
+Lumen make_step(const StepShape& shape);
+
 /// Round, around the x axis, 0 < x < length [m].
 struct TubeShape {
     double length, radius;

@@ -121,7 +121,7 @@ Vec3 wall_velocity(const deck::Wall& wall, const Vec3& normal) {
 
 void expect_wall_names(const Scene& scene) {
     const auto& shape = scene.config.geometry.shape;
-    const bool has_plane_walls = shape && (shape->type == deck::ShapeType::channel || shape->type == deck::ShapeType::box);
+    const bool has_plane_walls = shape && (shape->is_planar() || shape->type == deck::ShapeType::box);
     for (const auto& [name, velocity] : scene.config.wall.velocity) {
         const bool is_plane = name.size() > 2 && (name.ends_with("_low") || name.ends_with("_high")) && name[0] >= 'x' && name[0] <= 'z';
         if (name != "all" && !(has_plane_walls && is_plane))

@@ -209,6 +209,10 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     if (plan.budget_spacing > plan.moving_spacing) plan.cuts = find_cuts(vessel, plan.budget_spacing);
     plan.short_ends = find_short_ends(vessel);
     plan.stent = propose_stent(along);
+    plan.with_stent = settings.with_stent;
+    if (plan.with_stent && !plan.stent)
+        throw GeometryError(along.assessment.lesions.empty() ? "--stent: the vessel has no lesion to put a stent into"
+                                                             : "--stent: no stent of the library (patency stent list) fits the worst lesion's diameter");
     plan.config.numerics.scheme = deck::SchemeName::cells;
     plan.config.numerics.across = cells_across;
     plan.cells = plan_cells(plan.config, settings.budget.threads, &vessel);

@@ -20,6 +20,7 @@ struct InitSettings {
     deck::Geometry geometry;   ///< the surface or network, paths absolute
     std::string name;          ///< of the case
     Budget budget;
+    bool with_stent = false;   ///< the proposed stent is in the deck, not a comment there
 };
 
 /// What brings blood to a vessel of this width, if nobody says.
@@ -69,6 +70,7 @@ struct InitPlan {
     std::vector<Cut> cuts;
     std::vector<ShortEnd> short_ends;
     std::optional<StentProposal> stent;   ///< for the worst lesion; none where no design fits
+    bool with_stent;                      ///< it is in the deck, not a comment there
 
     double across(double diameter) const { return diameter / moving_spacing; }   ///< moving particles
     bool is_within_budget() const { return price.seconds <= budget.seconds && price.memory <= budget.memory; }
@@ -81,7 +83,7 @@ inline constexpr double cells_across = 12;
 inline constexpr double fewest_resolved = 8;
 
 /// Decides everything for a vessel that was followed: a steady flow on cells that follow it, and what moving particles would
-/// cost. Throws GeometryError if no flow can be set up in it.
+/// cost. Throws GeometryError if no flow can be set up in it, or a stent is wanted and there is no lesion that one of the library fits.
 InitPlan plan_case(const Vessel& vessel, const InitSettings& settings);
 
 }   // namespace patency

@@ -9,6 +9,7 @@
 #include "patency/base/text.h"
 #include "patency/base/units.h"
 #include "patency/physics/open_ends/bed.h"
+#include "patency/stages/stent_placement.h"
 
 namespace patency {
 
@@ -215,11 +216,19 @@ std::string stent_text(const Vessel& vessel, const InitPlan& plan) {
         "# A stent for L{}: {} opens to {:.2f} mm (healthy lumen {:.2f} mm), {:.1f} mm long (lesion {:.1f} mm{}).\n",
         s.lesion + 1, s.design->name, mm(s.design->pattern.nominal_diameter), mm(lesion.interpolated.diameter),
         mm(s.design->pattern.length), mm(lesion.length()), s.covers ? "" : ": longer than the stent");
-    text += "# stent:\n";
-    text += commented(fmt::format("#   design: {}", s.design->name), "of the library: patency stent list");
-    return text + commented(fmt::format("#   placement: {{branch: {}, arc_length: \"{:.2f} mm\"}}",
-                                        shown_name(along.lines.branches[lesion.branch].name), mm(s.arc)),
-                            "its middle on the lesion's");
+    const std::string in = plan.with_stent ? "" : "# ";
+    text += in + "stent:\n";
+    text += commented(in + "  design: " + s.design->name, "of the library: patency stent list");
+    text += commented(fmt::format("{}  placement: {{branch: {}, arc_length: \"{:.2f} mm\"}}", in,
+                                  shown_name(along.lines.branches[lesion.branch].name), mm(s.arc)),
+                      "its middle on the lesion's");
+    text += in + "deployment:\n";
+    text += commented(in + "  mode: geometric", "a quick change of shape; balloon: by contact, with plastic struts, in hours");
+    const double crimped = s.design->pattern.crimped_diameter;
+    if (lesion.minimum_diameter < crimped)
+        text += commented(fmt::format("#   predilation: \"{:.1f} mm\"", mm(predilation_for(crimped))),
+                          fmt::format("by contact, a balloon before: the crimped stent, {:.2f} mm, does not pass {:.2f} mm", mm(crimped), mm(lesion.minimum_diameter)));
+    return text;
 }
 
 }   // namespace

@@ -28,6 +28,7 @@ std::vector<AxialRadius> outline_of(const deck::Shape& shape) {
             for (const deck::NozzleSection& s : shape.sections) outline.push_back({s.z, 0.5 * s.diameter});
             return outline;
         }
+        case deck::ShapeType::step:
         case deck::ShapeType::branches: break;
     }
     return {};
@@ -90,6 +91,7 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
 double narrowest_width(const deck::Shape& shape) {
     if (shape.type == deck::ShapeType::box)
         return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
+    if (shape.type == deck::ShapeType::step) return shape.gap - shape.step_height;
     double width = Bounds::infinity;
     for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
     for (const deck::Branch& b : shape.branches)
@@ -116,6 +118,7 @@ Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
     const auto along_axis = [&] { return motion_along(shape.axis, shape.start); };
     switch (shape.type) {
         case deck::ShapeType::channel: return make_channel({.length = shape.length, .gap = shape.gap, .ends = ends});
+        case deck::ShapeType::step: return make_step({.length = shape.length, .gap = shape.gap, .height = shape.step_height, .at = shape.step_at});
         case deck::ShapeType::box: return make_box_of(config, shape);
         case deck::ShapeType::tube:
             return moved(make_tube({.length = shape.length, .radius = 0.5 * shape.diameter, .ends = ends}), along_axis());

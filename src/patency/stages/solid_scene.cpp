@@ -19,7 +19,7 @@ namespace patency {
 
 namespace {
 
-SolidFill fill_shape(const deck::SolidShape& s, double spacing, bool planar) {
+SolidFill fill_whole(const deck::SolidShape& s, double spacing, bool planar) {
     switch (s.type) {
         case deck::SolidShapeType::box: return fill_box(s.from, s.to, spacing, planar);
         case deck::SolidShapeType::cylinder: return fill_cylinder(s.from, s.to, 0.5 * s.inner_diameter, 0.5 * s.diameter, spacing, planar);
@@ -27,6 +27,14 @@ SolidFill fill_shape(const deck::SolidShape& s, double spacing, bool planar) {
         case deck::SolidShapeType::stent: break;   // a stent is made as one
     }
     return fill_sphere(s.centre, 0.5 * s.diameter, spacing);
+}
+
+/// @throws DeckError at `path`.
+SolidFill fill_shape(const deck::SolidShape& s, double spacing, bool planar, const std::string& path) {
+    SolidFill fill = fill_whole(s, spacing, planar);
+    if (s.low) fill = cut_to_box(fill, *s.low, *s.high);
+    if (fill.places.empty() || fill.surface.elements.empty()) throw DeckError(path + ".shape.low: nothing of the solid, or of its surface, lies above it and below `high`");
+    return fill;
 }
 
 SolidNumerics make_solid_numerics(const deck::Case& config, const deck::SolidDeck& said) {
@@ -136,7 +144,7 @@ std::unique_ptr<SolidPart> make_part(const deck::Case& config, std::size_t index
     const std::string path = "solids." + std::to_string(index);
     const SolidNumerics numerics = make_solid_numerics(config, said);
     if (said.shape.type == deck::SolidShapeType::stent) return make_stent(config, said, path, numerics);
-    const SolidFill fill = fill_shape(said.shape, numerics.spacing, numerics.planar);
+    const SolidFill fill = fill_shape(said.shape, numerics.spacing, numerics.planar, path);
     auto part = std::make_unique<SolidPart>();
     part->name = said.name;
     Solid& solid = part->solid;
@@ -175,7 +183,7 @@ std::size_t SolidScene::particle_count() const {
 
 static std::unique_ptr<Contact> make_contact(SolidScene& scene, const deck::ContactDeck& said, double step) {
     SolidSurface& surface = *scene.part(said.solid).surface;
-    const ContactNumerics numerics{.friction = said.friction, .damping = said.damping, .step = step};
+    const ContactNumerics numerics{.friction = said.friction, .damping = said.damping, .step = step, .holds = scene.system.is_relaxed};
     if (said.plane) return make_plane_contact(surface, said.plane->point, normalized(said.plane->normal), numerics);
     if (said.tool) return make_tool_contact(surface, make_radial_tool(*said.tool), numerics);
     return make_surface_contact(surface, *scene.part(*said.with).surface, numerics);

@@ -114,11 +114,13 @@ void expect_passage(const StentPlace& place, const Centreline& line, const deck:
         if (!deployment.predilation)
             throw GeometryError(fmt::format("The lesion is {:.3g} mm wide, too narrow for the stent crimped to {:.3g} mm. Let a balloon open it before: "
                                             "deployment.predilation: \"{:.1f} mm\", or crimp the stent further (deployment.crimped_diameter).",
-                                            1e3 * place.narrowest, 1e3 * place.crimped_diameter, std::ceil(12e3 * place.crimped_diameter) / 10));
+                                            1e3 * place.narrowest, 1e3 * place.crimped_diameter, 1e3 * predilation_for(place.crimped_diameter)));
     }
 }
 
 }   // namespace
+
+double predilation_for(double crimped_diameter) { return 1e-4 * std::ceil(12e3 * crimped_diameter - 1e-6); }
 
 std::vector<Vec3> smoothed_line(const Centreline& line, double radius) {
     std::vector<Vec3> smooth;

@@ -29,6 +29,9 @@ struct StentPlace {
 /// The line's points, each the mean of those within a radius [m] along it (less towards its ends): a stent does not follow every kink.
 std::vector<Vec3> smoothed_line(const Centreline& line, double radius);
 
+/// The balloon that lets a crimped stent pass: a fifth wider, in tenths of a millimetre [m].
+double predilation_for(double crimped_diameter);
+
 /// Around the worst lesion, or where stent.placement says. Throws DeckError (diameters that contradict each other, an unknown
 /// branch, no lesion to find it by) and GeometryError (it reaches an opening, lies outside of the vessel, does not fit its bends or does not
 /// get there), each with what to do.

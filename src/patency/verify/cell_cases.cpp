@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "patency/stages/cell_scene.h"
 #include "patency/stages/lumen_of_case.h"
+#include "patency/verify/cell_shaking.h"
 #include "patency/verify/closed_forms.h"
 #include "patency/verify/measures.h"
 #include "patency/verify/verify_case.h"
@@ -17,20 +17,6 @@ namespace {
 
 // The parabola comes in; its cells' own profile settles, and the outlet's plane is near, outside of these.
 constexpr double measured_from = 0.3, measured_to = 0.8;
-
-/// Moves every point by up to `share` of its spacing along each axis, but not out of the lumen's middle or near its walls.
-void shake(const Lumen& lumen, double share, CellPoints& points) {
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> any(-share, share);
-    for (std::size_t i = 0; i < points.point.size(); ++i) {
-        const double h = points.spacing[i], a = any(random), b = any(random), c = any(random);
-        const Vec3 moved = points.point[i] + h * Vec3{a, b, c};
-        const bool stays = lumen.distance.value(moved) < -0.3 * h &&
-                           std::all_of(lumen.openings.begin(), lumen.openings.end(),
-                                       [&](const Opening& o) { return opening_coordinates(o, moved).s < -0.3 * h; });
-        if (stays) points.point[i] = moved;
-    }
-}
 
 void measure_cells_pipe(const deck::Case& config, const std::string& run, const std::filesystem::path&,
                         const std::function<bool()>& interrupted, RunData& data) {

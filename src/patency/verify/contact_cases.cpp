@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "patency/verify/hertz_case.h"
 #include "patency/verify/measures.h"
 #include "patency/verify/solid_runs.h"
 #include "patency/verify/verify_case.h"
@@ -173,6 +174,7 @@ std::vector<VerifyCase> contact_cases() {
         contact("two_rings", "Two elastic rings that collide: what is kept", measure_two_rings, two_rings_figures),
         contact("three_rings", "Three rings, the outermost held: the reference paper's section III.C, mended", measure_three_rings, three_rings_figures)};
     cases[2].level = Level::full;
+    cases.push_back(hertz_case());
     return cases;
 }
 

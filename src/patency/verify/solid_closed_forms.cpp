@@ -152,4 +152,15 @@ double HertzLine::half_width(double load) const { return std::sqrt(4 * load * ra
 double HertzLine::peak_pressure(double load) const { return std::sqrt(load * modulus / (pi * radius)); }
 double hertz_force(double radius, double modulus, double approach) { return 4.0 / 3 * modulus * std::sqrt(radius) * std::pow(approach, 1.5); }
 
+double hertz_sinking(double radius, double modulus, double force, double young, double poisson, double depth) {
+    const double a = std::cbrt(0.75 * force * radius / modulus), p0 = 1.5 * force / (pi * a * a);
+    constexpr int parts = 1000;   // over the angle whose sine is t: smooth at depth 0 too
+    double sum = 0;
+    for (int k = 0; k < parts; ++k) {
+        const double angle = (k + 0.5) / parts * pi / 2, t = std::sin(angle), r = a * std::cos(angle), square = r * r + depth * depth;
+        sum += pi / (2 * parts) * std::cos(angle) * t * t * (2 * (1 - poisson) + depth * depth / square) / std::sqrt(square);
+    }
+    return (1 + poisson) / young * p0 * a * a * sum;
+}
+
 }   // namespace patency

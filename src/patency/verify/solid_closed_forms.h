@@ -53,5 +53,8 @@ struct HertzLine {
 double contact_modulus(const ElasticModuli& a, const ElasticModuli& b);   ///< E* [Pa]
 /// Force [N] between two spheres whose centres have come nearer by `approach` [m].                     THEORY (22.8)
 double hertz_force(double radius, double modulus, double approach);
+/// How far a place on the axis, `depth` [m] below the middle of Hertz' pressure of a force [N] between spheres, goes into a half-space
+/// of young [Pa] and poisson; at depth 0 it is that body's part of the approach.                      THEORY (22.10)
+double hertz_sinking(double radius, double modulus, double force, double young, double poisson, double depth);
 
 }   // namespace patency

@@ -84,6 +84,7 @@ std::vector<VerifyCase> operator_cases();    // lattice_operators
 std::vector<VerifyCase> nozzle_cases();      // fda_nozzle
 std::vector<VerifyCase> coronary_cases();    // coronary_bifurcation
 std::vector<VerifyCase> cell_cases();        // cells_pipe
+std::vector<VerifyCase> cell_shape_cases();  // cells_poiseuille, cells_taper, cells_corner
 std::vector<VerifyCase> vessel_cell_cases(); // cells_bifurcation, cells_left_coronary_tree
 std::vector<VerifyCase> solid_point_cases(); // material_points, patch
 std::vector<VerifyCase> solid_cases();       // beam, thick_tube, plastic_tube, taylor_bar

@@ -29,6 +29,16 @@ inline NormalPush normal_push(double stiffness, double depth, double approach, d
     return {force, force - spring};
 }
 
+/// A push that lasts is held by this times its spring's force, so that at rest it is as deep as with a spring so much stiffer and
+/// one more; it grows over so many of the steps that the stiffness is for, and what is quicker than that meets the spring alone.
+inline constexpr double held_ratio = 9, held_steps = 50;
+
+/// The held part [N] after a step dt, from that before; none pulls.                                       THEORY (21.13)
+inline double held_push(double held, double stiffness, double depth, double dt, double step) {
+    const double share = std::min(1.0, dt / (held_steps * step));
+    return std::max(0.0, held + share * (held_ratio * stiffness * depth - held));
+}
+
 struct FrictionState {
     Vec3 force;        ///< on the point, along the surface [N]
     Vec3 stick;        ///< what the spring is stretched by, after the step [m]
