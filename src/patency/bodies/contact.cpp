@@ -62,7 +62,7 @@ double damping_loss(const Touch& then, double approach_now, double step) { retur
 
 
 /// held: of the push, beside the spring's [N]; velocity: against what it touches [m/s]; stick: before the step, then after it [m].
-///                                                                                     THEORY (21.8), (21.9), (21.13)
+///                                                                                     THEORY (21.8), (21.9), (21.11)
 Touch touch(const ContactNumerics& numerics, double stiffness, double depth, double held, const Vec3& normal, const Vec3& velocity, double dt, Vec3& stick) {
     const double approach = -dot(velocity, normal);
     const NormalPush push = normal_push(stiffness, depth + held / stiffness, approach, numerics.damping, numerics.step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solids that touch: vertices of a surface that have gone into another surface, or into something rigid, are pushed out,
 // and what they are pushed from is pushed back. By the signed distance to the surfaces themselves, so that spacings may
-// differ and nothing stands off. Forces are equal and opposite to round-off.             THEORY (21.5) to (21.13)
+// differ and nothing stands off. Forces are equal and opposite to round-off.             THEORY (21.5) to (21.11)
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct ContactNumerics {
     double friction = 0;   ///< Coulomb's coefficient
     double damping = 0;    ///< of the approach, over the critical                                     THEORY (21.9)
     double step = 0;       ///< the time step that the stiffness is set for [s]
-    bool holds = false;    ///< between surfaces: what lasts hardly sinks in; for solids that come to rest  THEORY (21.13)
+    bool holds = false;    ///< between surfaces: what lasts hardly sinks in; for solids that come to rest  THEORY (21.11)
 };
 
 /// What happened since the start, and the state now.
@@ -28,7 +28,7 @@ struct ContactReport {
     double deepest = 0;         ///< largest depth so far [m]
     Vec3 force{};               ///< on the first surface now [N]
     double normal_force = 0;    ///< sum of the pushes' lengths now, friction apart [N]
-    double pressure = 0;        ///< of a radial tool on the length that it touches now [Pa]          THEORY (21.12)
+    double pressure = 0;        ///< of a radial tool on the length that it touches now [Pa]          THEORY (21.13)
     std::size_t touching = 0;   ///< vertices now
 };
 

@@ -11,7 +11,7 @@ namespace patency {
 
 namespace {
 
-/// How deep a place is in the tool, and which way is out.                                               THEORY (21.11)
+/// How deep a place is in the tool, and which way is out.                                               THEORY (21.12)
 class ToolShape {
 public:
     ToolShape(RadialTool tool, std::size_t vertices)
@@ -75,7 +75,7 @@ public:
     std::vector<double> state() const override { return contact_.state(); }
     void restore(std::span<const double> state) override { contact_.restore(state); }
 
-    /// The pressure that would push as much on the cylinder between the outermost vertices that it touches.  THEORY (21.12)
+    /// The pressure that would push as much on the cylinder between the outermost vertices that it touches.  THEORY (21.13)
     ContactReport report() const override {
         ContactReport report = contact_.report();
         double low = INFINITY, high = -INFINITY;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rigid tubes of a radius that is told: a balloon pushes what is within it outwards, a crimper what is outside of it
-// inwards, straight or along a bent axis. They report what it takes.                 THEORY (21.11), (21.12)
+// inwards, straight or along a bent axis. They report what it takes.                 THEORY (21.12), (21.13)
 #pragma once
 
 #include "patency/bodies/contact.h"

@@ -33,7 +33,7 @@ inline NormalPush normal_push(double stiffness, double depth, double approach, d
 /// one more; it grows over so many of the steps that the stiffness is for, and what is quicker than that meets the spring alone.
 inline constexpr double held_ratio = 9, held_steps = 50;
 
-/// The held part [N] after a step dt, from that before; none pulls.                                       THEORY (21.13)
+/// The held part [N] after a step dt, from that before; none pulls.                                       THEORY (21.11)
 inline double held_push(double held, double stiffness, double depth, double dt, double step) {
     const double share = std::min(1.0, dt / (held_steps * step));
     return std::max(0.0, held + share * (held_ratio * stiffness * depth - held));
