@@ -112,6 +112,7 @@ private:
         double wanted = 0;     // flow
         double flow = 0, pressure = 0, conductance = 0;
         double slope = 0;   // of the pressure by the free flow
+        double seen = 1, rest_seen = 0;   // of a unit flow with the end's profile, and of what is imposed beside it, by the cells' own velocities
 
         bool is_imposed() const { return kind == CellEnd::Kind::velocity || enters; }
     };
