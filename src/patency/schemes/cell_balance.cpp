@@ -180,7 +180,7 @@ void CellBalance::compute_cell_states(double kappa) {
     for_each_index(mesh_.size(), [&](std::size_t i) { speed[i] = norm(u_[i]); });
     for_each_index(mesh_.size(), [&](std::size_t i) {
         double fastest = speed[i];
-        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, 0.5 * speed[n.cell]);
+        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, 0.75 * speed[n.cell]);
         const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
                           (fluid_.density * speed_);
         const double c = sound_speed(kappa, fastest, nu, width_[i]) + rate_ * width_[i];
