@@ -137,7 +137,7 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
         }
         const bool is_late = step + int(StallWatch::window) > settings.most_iterations;   // the last chance
         if (mean.count() > 0 || (watch.is_stalled() && (watch.is_standing() || (is_late && watch.is_bearable())))) mean.add(balance.fields());
-        if (mean.count() == int(StallWatch::window) && watch.is_bearable()) {
+        if (mean.count() >= int(StallWatch::window) && watch.is_bearable()) {
             balance.set_fields(mean.mean());
             balance.compute_residual(kappa);
             solution.is_settled = true, solution.swing = watch.swing();

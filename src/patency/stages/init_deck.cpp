@@ -211,8 +211,8 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     plan.stent = propose_stent(along);
     plan.with_stent = settings.with_stent;
     if (plan.with_stent && !plan.stent)
-        throw GeometryError(along.assessment.lesions.empty() ? "--stent: the vessel has no lesion to put a stent into"
-                                                             : "--stent: no stent of the library (patency stent list) fits the worst lesion's diameter");
+        throw GeometryError(along.assessment.lesions.empty() ? "A stent is asked for, and the vessel has no lesion to put it into."
+                                                             : "A stent is asked for, and none of the library (patency stent list) fits the worst lesion's diameter.");
     plan.config.numerics.scheme = deck::SchemeName::cells;
     plan.config.numerics.across = cells_across;
     plan.cells = plan_cells(plan.config, settings.budget.threads, &vessel);
