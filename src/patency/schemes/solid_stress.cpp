@@ -129,18 +129,16 @@ template <class T, bool is_run, class Law>
     const Mat<P> H = displacement_gradient(input, lanes, B), F = H + identity<P>();
     const P J = determinant(F);
     const Mat<P> A = lanes.gather(input.hourglass) * H - stress_of(law, F, lanes, particles) * B;
-    const Vec<P> own = A * Vec<P>{lanes.gather(input.distances[0]), lanes.gather(input.distances[1]), lanes.gather(input.distances[2])};
-    const auto put_row = [&](const Vec<P>& row, const P& force, std::size_t k) {
-        alignas(64) T x[width], y[width], z[width], f[width];
-        row.x.store(x), row.y.store(y), row.z.store(z), force.store(f);
+    const auto put_row = [&](const Vec<P>& row, std::size_t k) {
+        alignas(64) T x[width], y[width], z[width];
+        row.x.store(x), row.y.store(y), row.z.store(z);
         for (std::size_t l = 0; l < lanes.count; ++l) {
             const std::uint32_t i = is_run ? lanes.members[0] + std::uint32_t(l) : lanes.members[l];
             Quad<T>& q = stress.rows[k][i];
             q = {x[l], y[l], z[l], q.d};
-            stress.own_force[k][i] = f[l];
         }
     };
-    put_row(A.x, own.x, 0), put_row(A.y, own.y, 1), put_row(A.z, own.z, 2);
+    put_row(A.x, 0), put_row(A.y, 1), put_row(A.z, 2);
     for (std::size_t l = 0; l < lanes.count; ++l)
         if (!(J[int(l)] > 0)) return lanes.members[l];   // members rise
     return no_particle;

@@ -20,7 +20,6 @@ template <class T>
 struct StressInput {
     std::array<AlignedVector<T>, 9> sums;   ///< sum w (u_i - u_j) d^T, by rows, in units of the loop
     SymColumns<T> correction;               ///< B, per unit of distance squared
-    std::array<AlignedVector<T>, 3> distances;   ///< sum w d
     AlignedVector<T> hourglass;             ///< c [Pa per unit of distance squared]
     double displacement_scale = 1;          ///< the unit of displacements in that of distances
 };
@@ -28,8 +27,7 @@ struct StressInput {
 /// What the loop that sums forces needs of it: A = c (F - 1) - P B.                                     THEORY (20.8)
 template <class T>
 struct StressOutput {
-    std::array<AlignedVector<Quad<T>>, 3> rows;    ///< of A, in three of four places
-    std::array<AlignedVector<T>, 3> own_force;     ///< A sum w d
+    std::array<AlignedVector<Quad<T>>, 3> rows;   ///< of A, in three of four places
 };
 
 /// The stress of one material's particles; plastic particles take their step. Returns the first particle that is inside out

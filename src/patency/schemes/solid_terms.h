@@ -42,8 +42,8 @@ struct Stretching {
     }
 };
 
-/// sum w [A_j d - (c_i + c_j)(u_i - u_j) - f], f the damping, and in the fourth place sum w f . (v_i - v_j). What A_i adds is
-/// A_i sum w d.                                                                      THEORY (20.8), (20.9)
+/// sum w [(A_i + A_j) d - (c_i + c_j)(u_i - u_j) - f], f the damping, and in the fourth place sum w f . (v_i - v_j). Both A in one
+/// sum, so that a pair's two forces are opposite to the last bit but those of the sums.              THEORY (20.8), (20.9)
 template <bool is_damped>
 struct Force {
     static constexpr std::size_t own_quads = 4, quads = 4, sums = is_damped ? 4 : 3;
@@ -58,8 +58,10 @@ struct Force {
         const auto& [uj, xj, yj, zj] = j;
         const Vec<P> u = pair.w * difference(ui, uj);
         const P c = ui.d + uj.d;
-        Vec<P> f{fma(xj.a, d.x, fma(xj.b, d.y, xj.c * d.z)) - c * u.x, fma(yj.a, d.x, fma(yj.b, d.y, yj.c * d.z)) - c * u.y,
-                 fma(zj.a, d.x, fma(zj.b, d.y, zj.c * d.z)) - c * u.z};
+        const auto along = [&](const Quads<P>& a, const Quads<P>& b) __attribute__((always_inline)) {
+            return fma(a.a + b.a, d.x, fma(a.b + b.b, d.y, (a.c + b.c) * d.z));
+        };
+        Vec<P> f{along(xi, xj) - c * u.x, along(yi, yj) - c * u.y, along(zi, zj) - c * u.z};
         if constexpr (is_damped) {
             const P scale = number<P>(displacement_scale);
             const Vec<P> y{fma(scale, u.x, d.x), fma(scale, u.y, d.y), fma(scale, u.z, d.z)};   // as the pair lies now, times w

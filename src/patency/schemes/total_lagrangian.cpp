@@ -127,10 +127,8 @@ private:
         const std::size_t n = particles().size(), padded = pairs_.padded_size();
         displacement_.reset(padded, zero_record<T>());
         for (auto& row : stress_.rows) row.reset(padded, zero_record<T>());
-        for (auto& column : stress_.own_force) column.reset(padded, T(0));
         for (auto& column : input_.sums) column.reset(padded, T(0));
         for (auto& column : input_.correction) column.reset(padded, T(0));
-        for (auto& column : input_.distances) column.reset(padded, T(0));
         input_.hourglass.reset(padded, T(0));
         if (is_metal_) stretching_.reset(padded, T(0));
         elastic_hourglass_.resize(n), softened_at_.assign(n, 0);
@@ -145,7 +143,6 @@ private:
         pairs_.for_each_pair([&](std::uint32_t i, std::uint32_t j, const FixedPair<T>& pair) {
             const Vec3 wd = {double(pair.wd.x), double(pair.wd.y), double(pair.wd.z)};
             moment[i] += outer(wd, (1 / distance_unit_) * (p.reference[i] - p.reference[j]));
-            input_.distances[0][i] += pair.wd.x, input_.distances[1][i] += pair.wd.y, input_.distances[2][i] += pair.wd.z;
         });
         for_each_index(p.size(), [&](std::size_t i) {
             Mat3 M = 0.5 * (moment[i] + transpose(moment[i]));
@@ -275,13 +272,11 @@ private:
                 p.force[i] = scale * Vec3{double(pairs.x), double(pairs.y), double(pairs.z)};
                 if constexpr (is_damped) damping_power_[i] = scale * double(power);
             };
-            const auto& own = stress_.own_force;
-            const auto with_own = [&](std::size_t i, T x, T y, T z) { return Vec<T>{x + own[0][i], y + own[1][i], z + own[2][i]}; };
             if constexpr (std::is_same_v<std::decay_t<decltype(s[0])>, T>) {
-                finish(first, with_own(first, s[0], s[1], s[2]), s[s.size() - 1]);
+                finish(first, {s[0], s[1], s[2]}, s[s.size() - 1]);
             } else {
                 for (int l = 0; l < int(pairs_.lanes) && first + std::size_t(l) < p.size(); ++l)
-                    finish(first + std::size_t(l), with_own(first + std::size_t(l), s[0][l], s[1][l], s[2][l]), s[s.size() - 1][l]);
+                    finish(first + std::size_t(l), {s[0][l], s[1][l], s[2][l]}, s[s.size() - 1][l]);
             }
         }, numerics_.loop);
     }
