@@ -31,7 +31,10 @@ TEST(SolidShape, isCutToABoxWithoutAFaceThere) {
     EXPECT_NEAR(length, 2 * std::asin(0.3), 0.05);
     EXPECT_EQ(std::count(uses.begin(), uses.end(), 1), 2);
     EXPECT_EQ(std::count(uses.begin(), uses.end(), 2), std::ptrdiff_t(uses.size()) - 2);
-    for (const Vec3& x : cut.surface.vertices) EXPECT_NEAR(norm(x), 1, 1e-12);
+    for (const Vec3& x : cut.surface.vertices) {
+        EXPECT_NEAR(norm(x), 1, 1e-12);
+        EXPECT_TRUE(std::abs(x.x) <= 0.3 && x.y >= 0.8);
+    }
 }
 
 TEST(SolidShape, thatABoxHoldsIsNotCut) {
