@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "patency/config/deck.h"
+#include "patency/io/checkpoint.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "patency/stages/deploy_program.h"
@@ -58,8 +59,13 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
     EXPECT_NEAR(volume(stl), volume(vtp), 1e-5 * volume(vtp));
 }
 
-/// A deployment by contact that is stopped after each of these numbers of steps and goes on: its table.
-std::string table_of(const std::vector<int>& stops) {
+struct Traces {
+    std::string table;
+    std::vector<double> known;   // of the past, for the results at the end
+};
+
+/// Of a deployment by contact that is stopped after each of these numbers of steps and goes on.
+Traces traces_of(const std::vector<int>& stops) {
     const deck::Case config = deck::read_case(
         bifurcation, {"wall={spacing: 0.25 mm, plaque: fills}", "deployment={diameter: 3.3 mm, crimped_diameter: 1.8 mm, steps: 1200, frames: 4}",
                       "stent={pattern: {rings: 1, crowns: 6, length: 1.2 mm, diameter: 2 mm, crimped_diameter: 1.8 mm, nominal_diameter: 3.3 mm, strut_width: 0.1 mm, "
@@ -71,13 +77,15 @@ std::string table_of(const std::vector<int>& stops) {
         EXPECT_FALSE(run_deploy(config, {.folder = folder, .interrupted = [&] { return ++steps == stop; }}));
     }
     EXPECT_FALSE(std::filesystem::exists(folder.file("summary.json")));
-    return text_of(folder.file("deployment.csv"));
+    return {text_of(folder.file("deployment.csv")), CheckpointReader(folder.checkpoint("deploy")).read<std::vector<double>>("known")};
 }
 
 TEST(DeployByContact, GoesOnWithTheSameBits) {
-    const std::string at_once = table_of({340}), in_parts = table_of({30, 210, 100});   // at a row, while it is crimped, while it is let go
-    EXPECT_GT(std::count(at_once.begin(), at_once.end(), '\n'), 50);
-    EXPECT_EQ(at_once, in_parts);
+    const Traces at_once = traces_of({340}), in_parts = traces_of({30, 210, 100});   // at a row, while it is crimped, while it is let go
+    EXPECT_GT(std::count(at_once.table.begin(), at_once.table.end(), '\n'), 50);
+    EXPECT_EQ(at_once.table, in_parts.table);
+    EXPECT_GT(std::count_if(at_once.known.begin(), at_once.known.end(), [](double x) { return x != 0; }), 0);
+    EXPECT_EQ(at_once.known, in_parts.known);
 }
 
 TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
