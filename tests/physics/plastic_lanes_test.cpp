@@ -58,7 +58,9 @@ TEST_P(PlasticLanesOf, AreThoseOfOneAlone) {
             EXPECT_LT(distance(lane_of(full(packed.inverse_plastic), l), alone.state.inverse_plastic), 1e-12);
             EXPECT_NEAR(packed.strain[l], alone.state.strain, 1e-13);
             const bool flows = alone.state.strain > state[std::size_t(l)].strain;
-            if (!flows) EXPECT_EQ(lane_of(full(packed.inverse_plastic), l), lane_of(full(symmetric(c)), l));
+            if (!flows) {
+                EXPECT_EQ(lane_of(full(packed.inverse_plastic), l), lane_of(full(symmetric(c)), l));
+            }
             flowed += flows, rested += !flows;
             state[std::size_t(l)] = alone.state;
         }
