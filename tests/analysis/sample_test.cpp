@@ -25,7 +25,9 @@ TEST(SampleFlow, MayLookFarHereAndNearThere) {
         EXPECT_NEAR(far[k].pressure, tube.pressure(places[k]), 1e-8);
         const double share = std::pow(reach(places[k]) / tube.reach(), 3);
         EXPECT_GT(far[k].neighbours, (share > 2 ? 1.5 : 1.0) * near[k].neighbours);
-        if (k > 0) EXPECT_GE(far[k].neighbours, 0.9 * far[k - 1].neighbours);
+        if (k > 0) {
+            EXPECT_GE(far[k].neighbours, 0.9 * far[k - 1].neighbours);
+        }
     }
 }
 

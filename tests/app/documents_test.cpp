@@ -33,7 +33,9 @@ TEST(Documents, TheManualHasEveryCommandAndOption) {
         EXPECT_NE(plain.find(".SS patency " + command), plain.npos) << command;
         const std::set<std::string> options = matches(patency(command + " --help").output, "(--[a-z]+)");
         for (const std::string& option : options)
-            if (option != "--help") EXPECT_NE(plain.find(option), plain.npos) << command << ' ' << option;
+            if (option != "--help") {
+                EXPECT_NE(plain.find(option), plain.npos) << command << ' ' << option;
+            }
     }
     EXPECT_NE(plain.find("143"), plain.npos);
 }
@@ -42,7 +44,9 @@ TEST(Documents, NoLineOfTheManualIsTakenForARequest) {
     static const std::set<std::string> requests{".TH", ".SH", ".SS", ".TP", ".B", ".I"};
     std::istringstream lines(patency("man").output);
     for (std::string line; std::getline(lines, line);)
-        if (!line.empty() && (line[0] == '.' || line[0] == '\'')) EXPECT_TRUE(requests.count(line.substr(0, line.find(' ')))) << line;
+        if (!line.empty() && (line[0] == '.' || line[0] == '\'')) {
+            EXPECT_TRUE(requests.count(line.substr(0, line.find(' ')))) << line;
+        }
 }
 
 /// What bash offers in an empty folder for words of which the last is being written.

@@ -81,7 +81,9 @@ TEST(RadialTool, AShortBalloonPushesWithItsRoundEndsAndAShortCrimperOnlyWhereItI
     for (const auto& p : balloon->pushes()) {
         const double x = tube.surface->position[p.vertex].x;
         farthest = std::max(farthest, std::abs(x));
-        if (std::abs(x) > half + 1e-5) EXPECT_GT(p.force.x * x, 0) << "the round end pushes aside";
+        if (std::abs(x) > half + 1e-5) {
+            EXPECT_GT(p.force.x * x, 0) << "the round end pushes aside";
+        }
     }
     EXPECT_LT(farthest, reach + 1e-6);
     EXPECT_GT(farthest, reach - spacing);

@@ -253,6 +253,16 @@ TEST(CellSolver, givesOutletsWhatTheirModelsAsk) {
     EXPECT_NEAR((20 - other.end_states()[1].pressure) / (drawn.slope() * drawn.length), 1, 0.04);
 }
 
+// Middles of cells lie nearer to the axis than what they carry: a sum over them would be a flow too large, and a pressure would pay for it.
+TEST(CellSolver, carriesWhatAPressureDrives) {
+    Pipe pipe(8);
+    const double drop = pipe.slope() * pipe.length;
+    pipe.inlet = {.kind = CellEnd::Kind::pressure, .velocity = pipe.inlet.velocity, .pressure = drop};
+    CellBalance balance = pipe.balance();
+    ASSERT_TRUE(solve(balance, pipe.mesh).is_converged);
+    for (const CellEndState& end : balance.end_states()) EXPECT_NEAR(std::abs(end.flow) / pipe.flow(), 1, 0.04);
+}
+
 // Between plates of y = +-b a power law's profile is flatter: u = (2n + 1)/(n + 1) U (1 - (y/b)^(1 + 1/n)).
 TEST(CellSolver, findsTheProfileOfAPowerLawInASlab) {
     const double gap = 2e-3, n = 0.708, speed = 0.05, consistency = 0.017;

@@ -71,7 +71,9 @@ TEST(SpacingField, OfKnownBallsIsThatOfAllBalls) {
     const SpacingField known = make_spacing_field(cone, balls, settings), all = make_spacing_field(cone, settings);
     for (const Vec3& own : random_points({{2 * from, -to, -to}, {length - from, to, to}}, 2000)) {
         const Vec3 x = tilt.place(own);
-        if (contains(cone, x)) ASSERT_NEAR(known(x) / all(x), 1, 0.05) << own.x;
+        if (contains(cone, x)) {
+            ASSERT_NEAR(known(x) / all(x), 1, 0.05) << own.x;
+        }
     }
     EXPECT_THROW(make_spacing_field(cone, std::vector<InscribedBall>{{{}, 0.1e-3}}, settings), GeometryError);
 }

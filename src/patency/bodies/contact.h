@@ -57,8 +57,8 @@ std::unique_ptr<Contact> make_surface_contact(SolidSurface& first, SolidSurface&
 /// Where a vertex is in something rigid.
 struct RigidHit {
     double depth = 0;   ///< [m]; zero or less: it is not in
-    Vec3 normal;        ///< of the way out, unit
-    Vec3 velocity;      ///< of the rigid surface there [m/s]
+    Vec3 normal{};      ///< of the way out, unit
+    Vec3 velocity{};    ///< of the rigid surface there [m/s]
 };
 
 /// Vertices of a surface against something rigid: hit_of(vertex, place [m], time [s]), called from many threads.
@@ -75,7 +75,7 @@ public:
 
 private:
     struct Touch {
-        Vec3 force, normal;                                                 // [N], unit
+        Vec3 force{}, normal{};                                             // [N], unit
         double push = 0, damper = 0, depth = 0, energy = 0;                 // N, N, m, J
         double approach = 0, tool_speed = 0;                                // before the step; along the normal [m/s]
         double friction_loss = 0, damping_loss = 0, work = 0;               // in the last step [J]

@@ -120,19 +120,6 @@ void CellBalance::set_end(const CellEnd& said, End& end) {
         profile_[k] *= to_unit, profile_gradient_[k] = to_unit * profile_gradient_[k];
         rest_[k] += of_rest * profile_[k], rest_gradient_[k] += of_rest * profile_gradient_[k];
     }
-    // At coarse cells the sum over their middles is some per cent off: as a flow that pushes, it would take a pressure.
-    end.seen = 1, end.rest_seen = 0;
-    if (!said.velocity) return;
-    double unit_seen = 0, rest_seen = 0;
-    for (const std::uint32_t k : end.patches) {
-        const CellPatch& patch = mesh_.patches[k];
-        const Vec3& x = mesh_.point[patch.cell];
-        const Vec3 unit = to_unit * per_speed * said.velocity(x);
-        unit_seen -= dot(unit, patch.area);
-        rest_seen += dot((said.rest ? per_speed * said.rest(x) : Vec3{}) + of_rest * unit, patch.area);
-    }
-    constexpr double least = 0.5;   // a profile that the cells hardly see tells nothing
-    if (unit_seen > least) end.seen = unit_seen, end.rest_seen = rest_seen;
 }
 
 void CellBalance::set_fields(const CellFields& fields) {
@@ -176,14 +163,12 @@ void CellBalance::compute_gradients() {
 }
 
 void CellBalance::compute_cell_states(double kappa) {
-    // A still cell beside a stream must not answer a step of the pressure by many times what passes; but the more of the stream counts, the
-    // more pressure an opening pays for what its cells carry too much.
-    constexpr double of_neighbours = 0.75;
+    // A still cell beside a stream must not answer a step of the pressure by many times what passes.
     std::vector<double> speed(mesh_.size());
     for_each_index(mesh_.size(), [&](std::size_t i) { speed[i] = norm(u_[i]); });
     for_each_index(mesh_.size(), [&](std::size_t i) {
         double fastest = speed[i];
-        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, of_neighbours * speed[n.cell]);
+        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, speed[n.cell]);
         const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
                           (fluid_.density * speed_);
         const double c = sound_speed(kappa, fastest, nu, width_[i]) + rate_ * width_[i];
@@ -205,10 +190,9 @@ void CellBalance::compute_open_pressures() {
             const CellPatch& patch = mesh_.patches[k];
             const CellState& cell = state_[patch.cell];
             const Vec3 way = way_to(patch);
-            free += free_volume(cell, patch.area, way, end.seen);
+            free += free_volume(cell, patch.area, way, along(patch, way));
             end.conductance += norm(patch.area) / cell.c;
         }
-        if (end.enters) free -= end.rest_seen / end.seen;
         // A flow that is prescribed is an endless resistance.
         const bool is_flow = end.kind == CellEnd::Kind::flow;
         end.pressure = is_flow ? (free - end.wanted) / end.conductance : end.response.pressure(free, end.conductance);
@@ -233,9 +217,8 @@ void CellBalance::compute_patch_fluxes() {
         else if (patch.opening == CellPatch::wall)
             patch_flux_[k] = into_wall(cell, patch.area, d, patch.distance, wall_viscosity(cell, patch));
         else if (is_open(patch))
-            patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
-                                          ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{}, transport_,
-                                          ends_[std::size_t(patch.opening)].seen);
+            patch_flux_[k] = through_open(cell, patch.area, d, along(patch, d), ends_[std::size_t(patch.opening)].pressure,
+                                          ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{}, transport_);
         else
             patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k), transport_);
     });
@@ -345,7 +328,7 @@ double CellBalance::free_change(const End& end, const CellVectors& x) const {
     for (const std::uint32_t k : end.patches) {
         const CellPatch& patch = mesh_.patches[k];
         const CellVector& z = x[patch.cell];
-        free += dot(patch.area, Vec3{z[1], z[2], z[3]}) / end.seen + norm(patch.area) / state_[patch.cell].c * double(z[0]);
+        free += dot(patch.area, Vec3{z[1], z[2], z[3]}) + norm(patch.area) / state_[patch.cell].c * double(z[0]);
     }
     return free;
 }

@@ -112,7 +112,6 @@ private:
         double wanted = 0;     // flow
         double flow = 0, pressure = 0, conductance = 0;
         double slope = 0;   // of the pressure by the free flow
-        double seen = 1, rest_seen = 0;   // of a unit flow with the end's profile, and of what is imposed beside it, by the cells' own velocities
 
         bool is_imposed() const { return kind == CellEnd::Kind::velocity || enters; }
     };
@@ -136,6 +135,7 @@ private:
     }
     double share_of(std::size_t k) const { return -dot(profile_[k], mesh_.patches[k].area); }
     Vec3 way_to(const CellPatch& patch) const { return patch.centroid - mesh_.point[patch.cell]; }
+    static Vec3 along(const CellPatch& patch, const Vec3& way) { return way - dot(way, patch.normal) * patch.normal; }
 
     // Inside, velocities are over the reference speed U, pressures over density U^2, viscosities over U.
     const CellMesh& mesh_;

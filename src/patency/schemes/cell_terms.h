@@ -91,19 +91,19 @@ inline Flux through_imposed(const CellState& cell, const Vec3& area, const Vec3&
     return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u, transport.second_moment) + cell.p_at(d) * area -
                         cell.nu * size / distance * (u - cell.u)};
 }
-/// Through an opening where the pressure is imposed; the volume of it that does not depend on the pressure is free_volume.
-///                                                                                              THEORY.md (18.10)
-inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d, double seen = 1) {
-    return dot(cell.u, area) / seen + norm(area) / cell.c * cell.p_at(d);
+/// Through an opening where the pressure is imposed; the volume of it that does not depend on the pressure is free_volume. along: from
+/// the cell's point to the opening's, along the opening: across it the velocity is the cell's own, for blood that comes back would be
+/// sped up by its own slope.                                                                    THEORY.md (18.10)
+inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d, const Vec3& along) {
+    return dot(cell.u_at(along), area) + norm(area) / cell.c * cell.p_at(d);
 }
-/// seen: what cells see of a flow with the opening's profile, by their own velocities.
 /// What goes out carries the cell's velocity; what comes in brings `entering`: with its own again an inflow would feed itself.
-inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure,
-                         const Vec3& entering, const Transport& transport, double seen = 1) {
-    const double volume = free_volume(cell, area, d, seen) - norm(area) / cell.c * pressure;
+inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, const Vec3& along, double pressure,
+                         const Vec3& entering, const Transport& transport) {
+    const double volume = free_volume(cell, area, d, along) - norm(area) / cell.c * pressure;
     const double size = norm(area);
     const Vec3 spread = volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u, transport.second_moment);
-    return {volume, volume * (volume < 0 ? entering : cell.u) + spread + pressure * area};
+    return {volume, volume * (volume < 0 ? entering : cell.u_at(along)) + spread + pressure * area};
 }
 
 /// An opening whose pressure answers to its flow, p = p0 + R q, with q = free - conductance p: both at once. THEORY.md (18.11)
