@@ -105,14 +105,9 @@ TEST(GradedPoints, AreEvenInsideAndAsFarApartAsTheFieldAsks) {
     omp_set_num_threads(threads);
 }
 
-// Of the tapering vessel with narrow pockets in its wall, one and a half spacings wide.
-TEST(GradedPoints, StandApartInPocketsOfTheWall) {
-    Lumen lumen = taper();
-    const SpacingField field = make_spacing_field(lumen, graded);
+/// The tapering vessel with boxes that stand out of its wall, as deep as that along z.
+Lumen with_pockets(Lumen lumen, const std::vector<SignedDistance>& pockets, double depth) {
     const SignedDistance vessel = lumen.distance;
-    std::vector<SignedDistance> pockets;
-    const double width = 0.45e-3, depth = 3.5e-3;
-    for (double x = 1e-3; x < 3e-3; x += 1e-3) pockets.push_back(box_between({x, -width / 2, 0}, {x + width, width / 2, depth}));
     lumen.bounds.high.z = depth;
     lumen.distance = {[=](const Vec3& x) {
                           DistanceSample deepest = vessel.sample(x);
@@ -121,19 +116,46 @@ TEST(GradedPoints, StandApartInPocketsOfTheWall) {
                           return deepest;
                       },
                       lumen.bounds};
-    const GradedPoints p = make_graded_points(lumen, field);
+    return lumen;
+}
+
+/// In mean spacings of the pair.
+double nearest_pair(const GradedPoints& p) {
     GradedRows rows;
     rows.find(p.points, p.spacing, 1);
     double nearest = 1;
-    std::size_t in_pockets = 0;
-    for (std::size_t i = 0; i < p.points.size(); ++i) {
-        in_pockets += p.points[i].z > 1.7e-3;
+    for (std::size_t i = 0; i < p.points.size(); ++i)
         for (const std::uint32_t j : rows.row(i))
-            if (j != i && j < p.points.size())
-                nearest = std::min(nearest, 2 * norm(p.points[i] - p.points[j]) / (p.spacing[i] + p.spacing[j]));
-    }
-    EXPECT_GT(in_pockets, 10u);
-    EXPECT_GT(nearest, 0.5);
+            if (j != i && j < p.points.size()) nearest = std::min(nearest, 2 * norm(p.points[i] - p.points[j]) / (p.spacing[i] + p.spacing[j]));
+    return nearest;
+}
+
+std::size_t count_above(const GradedPoints& p, double z) {
+    return std::size_t(std::count_if(p.points.begin(), p.points.end(), [&](const Vec3& x) { return x.z > z; }));
+}
+
+// Narrow pockets in the wall, one and a half spacings wide.
+TEST(GradedPoints, StandApartInPocketsOfTheWall) {
+    const double width = 0.45e-3, depth = 3.5e-3;
+    std::vector<SignedDistance> pockets;
+    for (double x = 1e-3; x < 3e-3; x += 1e-3) pockets.push_back(box_between({x, -width / 2, 0}, {x + width, width / 2, depth}));
+    const Lumen lumen = with_pockets(taper(), pockets, depth);
+    const GradedPoints p = make_graded_points(lumen, make_spacing_field(lumen, graded));
+    EXPECT_GT(count_above(p, 1.7e-3), 10u);
+    EXPECT_GT(nearest_pair(p), 0.5);
+}
+
+// Into a slit of two layers, each of which sees its own wall alone, points would press for ever, were all taken out that are pressed together.
+TEST(GradedPoints, DoNotFollowEachOtherIntoASlit) {
+    const double width = 0.7e-3, spacing = 0.3e-3, depth = 6e-3;
+    const SignedDistance slit = box_between({1e-3, -width / 2, 0}, {7e-3, width / 2, depth});
+    Lumen lumen = with_pockets(taper(), {slit}, depth);
+    lumen.volume += 6e-3 * width * (depth - 1.1e-3);   // above the taper, whose mean radius that is
+    const SpacingField field = make_spacing_field(lumen, {.smallest = 0.999 * spacing, .largest = spacing, .across = 10});
+    const GradedPoints p = make_graded_points(lumen, field);
+    EXPECT_GT(count_above(p, 1.7e-3), 300u);
+    EXPECT_GT(nearest_pair(p), 0.5);
+    EXPECT_LT(p.spacing[0] / spacing, 1.02);   // all grow for those that are missing
 }
 
 TEST(GradedPoints, AreTheSameBitsForAnotherNumberOfThreads) {
