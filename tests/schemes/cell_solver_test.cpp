@@ -313,6 +313,29 @@ TEST(CellSolver, isTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(found[0].velocity, found[2].velocity);
 }
 
+// From noise, by steps that are far too long for it: where they lead away the next one is shorter, and where they are lost it is back to the best.
+TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
+    for (const auto& [noise, courant] : {std::pair{1.0, 1000.0}, std::pair{10.0, 100.0}}) {
+        Pipe pipe(6, 0.3);
+        pipe.speed = 0.05, pipe.inlet.flow = -pipe.flow();
+        pipe.outlet = {.kind = CellEnd::Kind::pressure, .pressure = 5, .resistance = 2e9};
+        CellBalance balance = pipe.balance();
+        CellFields fields = still(pipe.mesh);
+        std::uint32_t dice = 1;
+        const auto random = [&] {
+            dice = dice * 1664525u + 1013904223u;
+            return noise * pipe.speed * (double(dice >> 8) / (1 << 24) - 0.5);
+        };
+        for (std::size_t i = 0; i < pipe.mesh.size(); ++i) {
+            const double a = random(), b = random(), c = random();
+            fields.velocity[i] = {a, b, c};
+            fields.pressure[i] = density * noise * pipe.speed * random();
+        }
+        balance.set_fields(fields);
+        EXPECT_TRUE(solve(balance, pipe.mesh, {.first_courant = courant, .courant = courant}).is_converged) << noise;
+    }
+}
+
 TEST(CellSolver, saysWhenItDoesNotConverge) {
     const Pipe pipe(8);
     CellBalance balance = pipe.balance();

@@ -49,6 +49,28 @@ TEST(CellScene, flowsAsTheDeckSays) {
     EXPECT_NEAR(double(summary["largest_speed_m_per_s"]) / (2 * speed), 1, 0.03);
 }
 
+TEST(CellScene, SaysWhatItLooksLikeWhereItDiverged) {
+    const auto spoil = [](const CellScene& now) {
+        CellFields fields = now.balance->fields();
+        fields.pressure[0] = NAN;
+        now.balance->set_fields(fields);
+        return false;
+    };
+    std::size_t cells = 0;
+    const auto remains = [&](const CellScene& lost) {
+        cells = lost.mesh.size();
+        return std::string("; cell 0 is no number");
+    };
+    try {
+        make_solved_scene(tube(inflow + R"(, outlet: {type: pressure, pressure: "0 Pa"})"), spoil, remains);
+        ADD_FAILURE();
+    } catch (const DivergedError& error) {
+        EXPECT_NE(std::string(error.what()).find("lost its numbers after"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("; cell 0 is no number"), std::string::npos) << error.what();
+    }
+    EXPECT_GT(cells, 100u);
+}
+
 // A bed a hundred thousand times as stiff as the tube: the level of the pressure is all its flow's.
 TEST(CellScene, flowsIntoABedThatIsStiff) {
     const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: resistance, resistance: "2e10 Pa s/m^3", distal_pressure: "5 mmHg"})"));

@@ -189,8 +189,7 @@ void CellBalance::compute_open_pressures() {
         for (const std::uint32_t k : end.patches) {
             const CellPatch& patch = mesh_.patches[k];
             const CellState& cell = state_[patch.cell];
-            const Vec3 way = way_to(patch);
-            free += free_volume(cell, patch.area, way, along(patch, way));
+            free += free_volume(cell, patch.area, way_to(patch));
             end.conductance += norm(patch.area) / cell.c;
         }
         // A flow that is prescribed is an endless resistance.
@@ -217,7 +216,7 @@ void CellBalance::compute_patch_fluxes() {
         else if (patch.opening == CellPatch::wall)
             patch_flux_[k] = into_wall(cell, patch.area, d, patch.distance, wall_viscosity(cell, patch));
         else if (is_open(patch))
-            patch_flux_[k] = through_open(cell, patch.area, d, along(patch, d), ends_[std::size_t(patch.opening)].pressure,
+            patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
                                           ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{}, transport_);
         else
             patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k), transport_);

@@ -3,6 +3,8 @@
 // says how the balance answers to the fields. Solves for nothing (cell_solver.h).                 THEORY.md section 18
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -80,6 +82,10 @@ public:
     /// Sum over the cells of |volume| and |momentum|, over the flow and over the forces at the walls and openings.
     double volume_residual() const { return volume_residual_; }
     double momentum_residual() const { return momentum_residual_; }
+    /// Per cell: the larger of both for it alone.
+    double lack(std::size_t cell) const {
+        return std::max(std::abs(lack_[cell].volume) / scales_.flow, norm(lack_[cell].momentum) / scales_.force);
+    }
 
     /// The matrix of a step and minus the residual.
     void fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& right) const;
@@ -135,7 +141,6 @@ private:
     }
     double share_of(std::size_t k) const { return -dot(profile_[k], mesh_.patches[k].area); }
     Vec3 way_to(const CellPatch& patch) const { return patch.centroid - mesh_.point[patch.cell]; }
-    static Vec3 along(const CellPatch& patch, const Vec3& way) { return way - dot(way, patch.normal) * patch.normal; }
 
     // Inside, velocities are over the reference speed U, pressures over density U^2, viscosities over U.
     const CellMesh& mesh_;

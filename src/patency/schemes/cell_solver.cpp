@@ -18,7 +18,9 @@ namespace {
 constexpr double stagnant = 0.5;
 constexpr int most_cures = 6;
 constexpr double unsteady = 0.05, first_limit = 100;   // of the forces lacked; of the steps until then
-constexpr double runaway = 1e4;   // growth of the residual over the least so far that is no detour any more
+constexpr double runaway = 100;   // growth of the residual over the least so far that is no detour any more
+
+constexpr double rising = 1.5, shrink = 0.5;   // where more is lacked by that than a step ago, the next step is shorter
 
 /// Of the pressure's own term in a step. With little of it a step is nearly Newton's, which finds the pressure behind a
 /// lesion at once instead of letting it drain; but far from the answer that throws the blood about.   THEORY.md (18.12)
@@ -101,6 +103,9 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
     CellSolution solution;
     double courant = settings.first_courant, limit = settings.courant, kappa = settings.kappa;
     double least = INFINITY;
+    CellFields best;   // those that lacked least, with the ends' memory
+    std::vector<double> best_ends;
+    double before = INFINITY;   // what was lacked a step ago
     int cures = 0;
     StallWatch watch;
     CellMixing mixing(5);
@@ -121,15 +126,23 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
         balance.compute_residual(kappa);
         const double volume = balance.volume_residual(), momentum = balance.momentum_residual(),
                      worst = std::max(volume, momentum);
-        if (!std::isfinite(worst)) throw fail("lost its numbers");
+        const bool is_lost = !std::isfinite(worst);
+        if (is_lost && best.pressure.empty()) throw fail("lost its numbers");
         if (volume < settings.tolerance && momentum < settings.tolerance) {
             solution.is_converged = true;
             solution.history.push_back({volume, momentum, 0, 0, courant});
             return solution;
         }
         if (settings.interrupted && settings.interrupted()) return solution;
-        if (step > 0) least = std::min(least, worst);
-        if (worst > runaway * least) throw fail("ran away");
+        if (is_lost || worst > runaway * least) {   // back, and on in shorter steps
+            if (++cures > most_cures) throw fail("ran away");
+            limit = std::max(1.0, 0.25 * courant);
+            courant = std::min(settings.first_courant, limit);
+            balance.set_fields(best), balance.restore_end_memory(best_ends);
+            mixing.forget(), watch = {}, mean = {};
+            continue;
+        }
+        if (step > 0 && worst < least) least = worst, best = balance.fields(), best_ends = balance.end_memory();
         watch.add(worst, balance.end_states());
         if (watch.is_stalled() && limit > first_limit) {   // long steps by a matrix of first order may go round in circles
             limit = first_limit, courant = std::min(courant, limit);
@@ -161,7 +174,9 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
         else mixing.forget();
         balance.apply(change);
         if (settings.ends_may_turn) balance.turn_ends();
-        courant = std::min({limit, settings.growth * courant, momentum > unsteady ? first_limit : INFINITY});
+        const double change_of_step = worst > rising * before ? shrink : settings.growth;
+        courant = std::min({limit, change_of_step * courant, momentum > unsteady ? first_limit : INFINITY});
+        before = worst;
     }
     throw fail("has not converged");
 }

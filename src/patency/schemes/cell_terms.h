@@ -91,19 +91,27 @@ inline Flux through_imposed(const CellState& cell, const Vec3& area, const Vec3&
     return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u, transport.second_moment) + cell.p_at(d) * area -
                         cell.nu * size / distance * (u - cell.u)};
 }
-/// Through an opening where the pressure is imposed; the volume of it that does not depend on the pressure is free_volume. along: from
-/// the cell's point to the opening's, along the opening: across it the velocity is the cell's own, for blood that comes back would be
-/// sped up by its own slope.                                                                    THEORY.md (18.10)
-inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d, const Vec3& along) {
-    return dot(cell.u_at(along), area) + norm(area) / cell.c * cell.p_at(d);
+/// The cell's velocity where an opening's patch lies along the opening, by at most half of itself more or less: in a cell whose
+/// neighbours lie askew the slope alone may say anything. Across the opening it is the cell's own: blood that comes back would be sped
+/// up by its own slope.                                                                         THEORY.md (18.10)
+inline Vec3 velocity_along(const CellState& cell, const Vec3& area, const Vec3& d) {
+    constexpr double share = 0.5;
+    const Vec3 change = cell.grad_u * (d - (dot(d, area) / dot(area, area)) * area);
+    const double size = norm(change), most = share * norm(cell.u);
+    return cell.u + (size > most ? most / size : 1.0) * change;
+}
+/// Through an opening where the pressure is imposed; the volume of it that does not depend on the pressure is free_volume.
+///                                                                                              THEORY.md (18.10)
+inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d) {
+    return dot(velocity_along(cell, area, d), area) + norm(area) / cell.c * cell.p_at(d);
 }
 /// What goes out carries the cell's velocity; what comes in brings `entering`: with its own again an inflow would feed itself.
-inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, const Vec3& along, double pressure,
+inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure,
                          const Vec3& entering, const Transport& transport) {
-    const double volume = free_volume(cell, area, d, along) - norm(area) / cell.c * pressure;
+    const double volume = free_volume(cell, area, d) - norm(area) / cell.c * pressure;
     const double size = norm(area);
     const Vec3 spread = volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u, transport.second_moment);
-    return {volume, volume * (volume < 0 ? entering : cell.u_at(along)) + spread + pressure * area};
+    return {volume, volume * (volume < 0 ? entering : velocity_along(cell, area, d)) + spread + pressure * area};
 }
 
 /// An opening whose pressure answers to its flow, p = p0 + R q, with q = free - conductance p: both at once. THEORY.md (18.11)

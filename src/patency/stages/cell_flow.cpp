@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
@@ -63,6 +64,33 @@ void write_wall(const OutputFolder& folder, const CellScene& scene) {
     const auto file = frame_file("wall", 0);
     write_polydata(folder.file(file.string()), data);
     PvdWriter(folder.file("wall.pvd")).add(0, file);
+}
+
+/// Writes the cells that lack most, those without numbers first, and says where the first of them is.
+std::string describe_remains(const OutputFolder& folder, const CellScene& scene) {
+    constexpr std::size_t most = 1000;   // enough to see where
+    std::vector<std::uint32_t> worst(scene.mesh.size());
+    std::iota(worst.begin(), worst.end(), 0u);
+    std::vector<double> lack;
+    for (std::size_t i = 0; i < worst.size(); ++i) lack.push_back(scene.balance->lack(i));
+    const auto badness = [&](std::uint32_t i) { return std::isfinite(lack[i]) ? lack[i] : INFINITY; };
+    const std::size_t count = std::min(most, worst.size());
+    std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end(),
+                      [&](std::uint32_t a, std::uint32_t b) { return badness(a) != badness(b) ? badness(a) > badness(b) : a < b; });
+    worst.resize(count);
+    const CellFields fields = scene.balance->fields();
+    std::vector<Vec3> velocity;
+    PolyData data;
+    std::vector<double> pressure, volume, lacked;
+    for (const std::uint32_t i : worst) {
+        data.points.push_back(scene.mesh.point[i]), velocity.push_back(fields.velocity[i]);
+        pressure.push_back(fields.pressure[i]), volume.push_back(scene.mesh.volume[i]), lacked.push_back(lack[i]);
+    }
+    data.arrays = {vectors("velocity", "m/s", velocity), {"pressure", "Pa", 1, pressure}, {"volume", "m^3", 1, volume}, {"lack", "1", 1, lacked}};
+    write_polydata(folder.file("offenders.vtp"), data, {.non_finite = NonFinite::allow});
+    const Vec3& x = data.points[0];
+    return fmt::format("; most of it near ({:.4g}, {:.4g}, {:.4g}) mm, where it goes at {:.3g} m/s. The cells that lack most are in {}", 1e3 * x.x, 1e3 * x.y,
+                       1e3 * x.z, norm(velocity[0]), folder.file("offenders.vtp").string());
 }
 
 }   // namespace
@@ -158,7 +186,7 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
         ++steps;
         if (stage.progress) stage.progress->update(progress_of(now));
         return stage.interrupted && stage.interrupted();
-    });
+    }, [&](const CellScene& lost) { return describe_remains(stage.folder, lost); });
     if (!scene->solution.is_converged && !scene->solution.is_settled) {
         say("interrupted; the flow on cells begins anew the next time");
         return Outcome::interrupted;

@@ -128,13 +128,17 @@ std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen
 }
 
 void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings) {
-    if (coarser) scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
+    if (coarser) {
+        scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
+        scene.balance->restore_end_memory(coarser->balance->end_memory());   // or the first gradients would see other pressures at the openings
+    }
     CellMatrix matrix(scene.mesh);
     scene.solution = solve_steady(*scene.balance, matrix, settings);
 }
 
 std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
-                                             const std::function<bool(const CellScene&)>& watch) {
+                                             const std::function<bool(const CellScene&)>& watch,
+                                             const std::function<std::string(const CellScene&)>& describe_remains) {
     std::shared_ptr<const Vessel> vessel;
     if (config.has_vessel()) vessel = std::make_shared<const Vessel>(read_vessel(config));
     const Lumen lumen = make_cell_lumen(config, vessel.get());
@@ -148,7 +152,12 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
         scene->vessel = vessel;
         CellSolverSettings settings{.tolerance = tolerance};
         if (watch) settings.interrupted = [&] { return watch(*scene); };
-        solve_scene(*scene, coarser, settings);
+        try {
+            solve_scene(*scene, coarser, settings);
+        } catch (const DivergedError& error) {
+            if (!describe_remains) throw;
+            throw DivergedError(error.what() + describe_remains(*scene));
+        }
         return scene;
     };
     std::unique_ptr<CellScene> coarse;

@@ -54,8 +54,9 @@ std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen
 void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings);
 
 /// The scene of a deck with its flow: a coarse one first, which costs little and is a good start. `watch` is called with
-/// every scene before and after every step of its solution; true ends the run.
-std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
-                                             const std::function<bool(const CellScene&)>& watch = {});
+/// every scene before and after every step of its solution; true ends the run. `describe_remains`, of a scene whose flow diverged, is
+/// added to the DivergedError.
+std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config, const std::function<bool(const CellScene&)>& watch = {},
+                                             const std::function<std::string(const CellScene&)>& describe_remains = {});
 
 }   // namespace patency
