@@ -29,7 +29,7 @@ const Vessel& y() {
 deck::Case config(const std::function<void(deck::Case&)>& change = {}) {
     deck::Case c;
     deck::StentPattern p{.rings = 3, .crowns = 6, .length = 4e-3, .diameter = 1.8e-3, .crimped_diameter = 1.2e-3, .nominal_diameter = 2.6e-3, .strut_width = 0.09e-3,
-                         .strut_thickness = 0.08e-3, .crown_radius = 0.12e-3, .gap = 0.2e-3, .connectors = 3};
+                         .strut_thickness = 0.08e-3, .crown_radius = 0.12e-3, .gap = 0.2e-3, .connectors = 3, .connector_width = {}};
     c.stent.emplace();
     c.stent->pattern = p;
     if (change) change(c);

@@ -101,6 +101,9 @@ std::span<const TableMaterial> material_table() {
     static const std::vector<TableMaterial> table = {
         {"coronary_wall", "coronary artery as one elastic layer", "arXiv 2511.08745, table III: E and nu, from which G and K follow",
          rubber_like(1080, 1e6, 0.45)},
+        {"calcified_plaque", "stiff plaque, elastic",
+         "Ansys Mechanical APDL Technology Showcase, chapter 25 (a stent in an occluded artery): E 2.19 MPa, nu 0.49; density as the wall's",
+         rubber_like(1080, 2.19e6, 0.49)},
         {"316L", "stainless steel, annealed", "ASTM F138, least values: yield 172 MPa, ultimate 485 MPa, elongation 40 %",
          metal(8000, 193e9, 0.3, 172e6, 485e6, 0.40)},
         {"L605", "cobalt-chromium alloy, annealed", "ASTM F90, least values: yield 310 MPa, ultimate 860 MPa, elongation 30 %",
