@@ -77,7 +77,7 @@ Mat<Pack<T>> stress_of(const J2Plastic& law, const Mat<Pack<T>>& F, const Lanes<
     F.x.x.store(from[0]), F.x.y.store(from[1]), F.x.z.store(from[2]), F.y.x.store(from[3]), F.y.y.store(from[4]), F.y.z.store(from[5]);
     F.z.x.store(from[6]), F.z.y.store(from[7]), F.z.z.store(from[8]);
     for (std::size_t first = 0; first < all; first += width) {   // lanes past the last repeat it
-        D f[9], c[6], strain;
+        D f[9]{}, c[6]{}, strain{};
         for (std::size_t k = 0; k < 9; ++k)
             for (std::size_t l = 0; l < width; ++l) f[k].v[l] = double(from[k][first + l]);
         for (std::size_t l = 0; l < width; ++l) {
