@@ -11,9 +11,11 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME patency)
 set(CPACK_PACKAGE_CONTACT "patency developers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "blood flow and stents in coronary arteries by particle methods")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Computes the blood flow in the lumen of a patient's coronary artery (pressures, fractional flow reserve,
-flow split, wall shear stress), implants a stent in it, computes the flow after, and says on one page
-what has changed. A case is a text file with units. For research; not a medical device.")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Computes the blood flow in the lumen of a patient's coronary artery:
+pressures, fractional flow reserve, flow split, wall shear stress. Implants
+a stent in it, computes the flow after, and says on one page what has
+changed. A case is a text file with units.
+For research; not a medical device.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
