@@ -26,6 +26,7 @@ void add_sweep_command(CLI::App& program, ExitCode& exit_code);
 void add_report_command(CLI::App& program, ExitCode& exit_code);
 void add_verify_command(CLI::App& program, ExitCode& exit_code);
 void add_bench_command(CLI::App& program, ExitCode& exit_code);
-void add_documents_commands(CLI::App& program, ExitCode& exit_code);
+void add_man_command(CLI::App& program, ExitCode& exit_code);
+void add_completion_command(CLI::App& program, ExitCode& exit_code);
 
 }  // namespace patency::app

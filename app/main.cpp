@@ -34,7 +34,8 @@ int run(int argc, char** argv) {
     app::add_bench_command(program, exit_code);
     app::add_schema_command(program, exit_code);
     app::add_version_command(program, exit_code);
-    app::add_documents_commands(program, exit_code);
+    app::add_man_command(program, exit_code);
+    app::add_completion_command(program, exit_code);
     std::string codes = "Exit codes:";
     for (const app::ExitMeaning& exit : app::exit_meanings()) codes += fmt::format("\n  {:<10}{}", exit.code, exit.meaning);
     program.footer(codes);

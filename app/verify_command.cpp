@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 fs::path find_decks(const std::string& wanted) {
     if (!wanted.empty()) return wanted;
     if (fs::exists("cases/verify")) return "cases/verify";
-    std::error_code error;   // an installed program has them beside it
-    const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share" / "patency" / "cases" / "verify";
+    std::error_code error;
+    const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path() / PATENCY_DATA / "cases" / "verify";
     return fs::exists(installed) ? installed : fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
 }
 

@@ -9,7 +9,7 @@
 namespace patency::app {
 
 void add_version_command(CLI::App& program, ExitCode&) {
-    program.add_subcommand("version", "print the version")->callback([] { std::puts("patency " PATENCY_VERSION); });
+    program.add_subcommand("version", "print the version, and for which instructions the program was compiled")->callback([] { std::puts("patency " PATENCY_VERSION " (" PATENCY_ISA ")"); });
 }
 
 void add_schema_command(CLI::App& program, ExitCode&) {

@@ -2,6 +2,8 @@
 # Libraries, all from Debian 12. docs/ARCHITECTURE.md says what each is for.
 find_package(OpenMP REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
+# Its sums go by the width of the registers; they are few and small here, and the bits are to be the same for every width.
+target_compile_definitions(Eigen3::Eigen INTERFACE EIGEN_DONT_VECTORIZE)
 find_package(yaml-cpp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)

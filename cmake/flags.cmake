@@ -4,9 +4,12 @@
 #   -fno-math-errno      sqrt() becomes one instruction
 #   -fno-trapping-math   lets the compiler turn lane loops into vector instructions
 # Not -ffast-math and not -ffinite-math-only: NaN checks must work and sums must keep their order.
-set(PATENCY_ARCH_native -march=native)
-set(PATENCY_ARCH_avx512 -march=x86-64-v4)
-set(PATENCY_ARCH_avx2 -march=x86-64-v3)
+# Where a processor can fuse, g++ 12 does so in spite of -ffp-contract=off when it puts straight code side by side: c x - s y beside
+# c y + s x (tools/check_fusion). Packs do without that.
+set(unfused -fno-tree-slp-vectorize)
+set(PATENCY_ARCH_native -march=native ${unfused})
+set(PATENCY_ARCH_avx512 -march=x86-64-v4 ${unfused})
+set(PATENCY_ARCH_avx2 -march=x86-64-v3 ${unfused})
 set(PATENCY_ARCH_baseline -march=x86-64)
 set(PATENCY_ARCH ${PATENCY_ARCH_${PATENCY_ISA}})
 

@@ -69,5 +69,46 @@ TEST(Documents, BashCompletesCommandsOptionsAndFiles) {
     for (const std::string& command : commands()) EXPECT_NE(all.find(command), all.npos) << command;
 }
 
+/// The body of a function of the completion, or nothing.
+std::string zsh_function(const std::string& completion, const std::string& name) {
+    const std::size_t begin = completion.find("\n" + name + "() {\n");
+    return begin == completion.npos ? "" : completion.substr(begin + 1, completion.find("\n}\n", begin) - begin);
+}
+
+TEST(Documents, ZshCompletesCommandsOptionsWordsAndFiles) {
+    const Result result = patency("completion zsh");
+    ASSERT_EQ(result.exit_code, 0);
+    const std::string& zsh = result.output;
+    EXPECT_TRUE(zsh.starts_with("#compdef patency\n"));
+    const std::string program = zsh_function(zsh, "_patency");
+    for (const std::string& command : commands()) {
+        EXPECT_NE(program.find("\n        '" + command + ":"), program.npos) << command;
+        const std::string own = zsh_function(zsh, "_patency_" + command);
+        ASSERT_FALSE(own.empty()) << command;
+        const std::set<std::string> options = matches(patency(command + " --help").output, "\n  (?:-.,)?(--[a-z]+)");
+        EXPECT_TRUE(options.count("--help")) << command;
+        EXPECT_EQ(matches(own, "\n        '(?:\\*|\\([^)]*\\))?(--[a-z]+)=?\\["), options) << own;
+    }
+    EXPECT_NE(zsh_function(zsh, "_patency_verify").find(":(quick full)'"), zsh.npos);
+    EXPECT_NE(zsh_function(zsh, "_patency_flow").find("'*--set=["), zsh.npos) << "may be repeated";
+    EXPECT_NE(zsh_function(zsh, "_patency_flow").find("':case:_files'"), zsh.npos);
+    EXPECT_NE(zsh_function(zsh, "_patency_stent_show").find("--turn="), zsh.npos);
+}
+
+TEST(Documents, NoTextOfAnOptionEndsItsWordOfZsh) {   // an apostrophe would end it, a bracket the text, a colon the command
+    std::istringstream lines(patency("completion zsh").output);
+    int checked = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("        '")) continue;
+        ++checked;
+        const std::string closed = std::regex_replace(line, std::regex(R"('\\'')"), "");
+        EXPECT_EQ(std::count(closed.begin(), closed.end(), '\''), 2) << line;
+        const std::string plain = std::regex_replace(closed, std::regex(R"(\\.)"), "");
+        EXPECT_LE(std::count(plain.begin(), plain.end(), '['), 1) << line;
+        EXPECT_EQ(std::count(plain.begin(), plain.end(), '['), std::count(plain.begin(), plain.end(), ']')) << line;
+    }
+    EXPECT_GT(checked, 100);
+}
+
 }   // namespace
 }   // namespace patency

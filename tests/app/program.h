@@ -15,9 +15,8 @@ struct Result {
     int exit_code;
     std::string output;   ///< what it printed, errors too
 };
-inline Result patency(const std::string& arguments) {
-    const std::string command = fmt::format("'{}' {} 2>&1", PATENCY_BINARY, arguments);
-    std::FILE* pipe = popen(command.c_str(), "r");
+inline Result run_command(const std::string& command) {
+    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
     Result result{-1, {}};
     std::array<char, 4096> chunk;
     while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), pipe)) result.output.append(chunk.data(), n);
@@ -25,5 +24,6 @@ inline Result patency(const std::string& arguments) {
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     return result;
 }
+inline Result patency(const std::string& arguments) { return run_command(fmt::format("'{}' {}", PATENCY_BINARY, arguments)); }
 
 }   // namespace patency

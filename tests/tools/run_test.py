@@ -22,11 +22,11 @@ class Run(unittest.TestCase):
         self.tree = Path(self.folder.name)
         shutil.copy(REPOSITORY / "run", self.tree)
         self.programs = self.tree / "bin"
-        for name in ("bash", "env", "dirname", "readlink", "cat"):
+        for name in ("bash", "env", "dirname", "readlink", "cat", "rm", "mkdir", "uname"):
             self.add_link(name)
         self.add_program("bin/dpkg-query", DPKG)
         self.add_program("bin/id", "echo 0")
-        for name in ("apt-get", "cmake", "ctest"):
+        for name in ("apt-get", "cmake", "ctest", "cpack"):
             self.add_program(f"bin/{name}", f'echo "{name} $*"')
 
     def add_link(self, name):
@@ -100,6 +100,21 @@ class Run(unittest.TestCase):
         code, output = self.run_it("test", "-R", "particles")
         self.assertEqual(code, 8, output)
         self.assertIn("-R particles", output)
+
+    def test_makes_a_package_of_one_build_per_instruction_set(self):
+        self.add_program("bin/cmake", '''echo "cmake $*"; [[ $1 != --build ]] || mkdir -p "$2"''')
+        self.add_program("bin/cpack", "touch_package() { : > patency_1_amd64.deb; }; touch_package")
+        code, output = self.run_it("package", missing="dpkg-dev file")
+        self.assertEqual(code, 0, output)
+        self.assertIn("--no-install-recommends dpkg-dev file\n", output)
+        for name in ("baseline", "avx2", "avx512"):
+            self.assertIn(f"cmake --preset {name}\ncmake --build {self.tree}/build/package/{name} --target all\n", output)
+        self.assertTrue(output.endswith(f"\n{self.tree}/build/package/patency_1_amd64.deb\n"), output)
+        self.add_program("bin/cpack", "echo no room; exit 3")
+        code, output = self.run_it("package")
+        self.assertEqual(code, 1, output)
+        self.assertIn("no room", output)
+        self.assertNotIn(".deb", output)
 
     def test_stops_when_the_build_fails(self):
         self.add_program("bin/cmake", "exit 3")
