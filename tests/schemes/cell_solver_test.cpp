@@ -347,6 +347,24 @@ TEST(CellSolver, saysWhenItDoesNotConverge) {
     EXPECT_THROW(CellBalance(pipe.mesh, blood, std::vector{pipe.inlet, pipe.inlet}, 1), DeckError) << "no level";
 }
 
+// Slabs of different depth; what is prescribed stays as it is.
+TEST(CellSolver, startsWithTheOpeningsOfACoarserFlow) {
+    const double gap = 2e-3, speed = 0.05;
+    const Lumen channel = make_channel({.length = 4e-3, .gap = gap});
+    const CellMesh few = mesh_of(channel, gap / 8, 0), many = mesh_of(channel, gap / 14, 0);
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity, .velocity = [&](const Vec3& x) { return Vec3{6 * speed * x.y * (gap - x.y) / (gap * gap), 0, 0}; }, .flow = -speed * gap};
+    const std::vector<CellEnd> ends{inlet, {.kind = CellEnd::Kind::pressure, .pressure = 5, .resistance = 2e5}};
+    CellBalance rough(few, blood, ends, speed), fine(many, blood, ends, 2 * speed);
+    solve(rough, few);
+    fine.set_fields(rough.fields_at(many.point));
+    fine.start_ends_as(rough);
+    const auto before = rough.end_states(), after = fine.end_states();
+    EXPECT_NEAR(after[0].flow, -speed * gap, 1e-12 * speed * gap);
+    EXPECT_NEAR(after[1].flow, before[1].flow, 1e-12 * speed * gap);
+    EXPECT_NEAR(after[1].pressure, before[1].pressure, 1e-9 * before[1].pressure);
+    EXPECT_GT(after[1].pressure, 10);
+}
+
 // A coarse flow's gradients carry it over to finer cells.
 TEST(CellSolver, startsNearerFromACoarserFlow) {
     const Pipe coarse(8), fine(14);

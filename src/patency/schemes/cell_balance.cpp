@@ -394,4 +394,17 @@ void CellBalance::restore_end_memory(std::span<const double> memory) {
     make_all_gradients();
 }
 
+void CellBalance::start_ends_as(const CellBalance& other) {
+    const double speeds = other.speed_ / speed_;
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+        const End& from = other.ends_[k];
+        End& end = ends_[k];
+        if (end.kind == CellEnd::Kind::velocity) continue;
+        end.pressure = speeds * speeds * from.pressure + (other.level_ - level_) / (fluid_.density * speed_ * speed_);
+        if (end.kind != CellEnd::Kind::pressure) continue;   // its flow is prescribed
+        end.enters = from.enters, end.flow = speeds * mesh_.depth / other.mesh_.depth * from.flow;
+    }
+    make_all_gradients();
+}
+
 }   // namespace patency

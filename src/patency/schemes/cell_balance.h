@@ -101,6 +101,8 @@ public:
     /// What the next residual depends on beside the fields, for checkpoints: three numbers of every end.
     std::vector<double> end_memory() const;
     void restore_end_memory(std::span<const double> memory);
+    /// Starts with the ends' pressures, ways and answering flows of the same ends on another mesh.
+    void start_ends_as(const CellBalance& other);
     /// Per patch, zero away from walls [Pa].                                                       THEORY.md (18.7)
     std::vector<Vec3> wall_shear_stress() const;
     std::vector<double> patch_pressure() const;   ///< per patch: what its cell extrapolates to it [Pa]

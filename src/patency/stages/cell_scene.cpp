@@ -130,7 +130,7 @@ std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen
 void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings) {
     if (coarser) {
         scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
-        scene.balance->restore_end_memory(coarser->balance->end_memory());   // or the first gradients would see other pressures at the openings
+        scene.balance->start_ends_as(*coarser->balance);   // or the first gradients would see other pressures at the openings
     }
     CellMatrix matrix(scene.mesh);
     scene.solution = solve_steady(*scene.balance, matrix, settings);
