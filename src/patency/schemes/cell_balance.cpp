@@ -163,12 +163,14 @@ void CellBalance::compute_gradients() {
 }
 
 void CellBalance::compute_cell_states(double kappa) {
-    // A still cell beside a stream must not answer a step of the pressure by many times what passes.
+    // A still cell beside a stream must not answer a step of the pressure by many times what passes; but the more of the stream counts, the
+    // more pressure an opening pays for what its cells carry too much.
+    constexpr double of_neighbours = 0.75;
     std::vector<double> speed(mesh_.size());
     for_each_index(mesh_.size(), [&](std::size_t i) { speed[i] = norm(u_[i]); });
     for_each_index(mesh_.size(), [&](std::size_t i) {
         double fastest = speed[i];
-        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, speed[n.cell]);
+        for (const CellNeighbour& n : mesh_.neighbours(i)) fastest = std::max(fastest, of_neighbours * speed[n.cell]);
         const double nu = viscosity(fluid_.rheology, is_newtonian_ ? 0.0 : shear_rate(grad_u_[i]) * speed_) /
                           (fluid_.density * speed_);
         const double c = sound_speed(kappa, fastest, nu, width_[i]) + rate_ * width_[i];
