@@ -119,7 +119,7 @@ constexpr StentFact stent_facts[] = {
     {"/recoil_percent", "Acute recoil"},
     {"/foreshortening_percent", "Foreshortening"},
     {"/dogboning_percent", "Dogboning"},
-    {"/penetration_over_spacing", "Overlap over spacing", [](double v) { return v < 0.5; }, "metal and wall keep apart", "metal sinks into the wall"},
+    {"/penetration_over_spacing", "Overlap over spacing", [](double v) { return v < 0.1; }, "metal and wall keep apart", "metal sinks into the wall"},
     {"/kinetic_to_internal", "Kinetic over internal energy", [](double v) { return v < 0.05; }, "deployed slowly enough", "deployed too fast to be trusted"},
 };
 
