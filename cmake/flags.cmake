@@ -6,7 +6,7 @@
 # Not -ffast-math and not -ffinite-math-only: NaN checks must work and sums must keep their order.
 # Where a processor can fuse, g++ 12 does so in spite of -ffp-contract=off when it puts straight code side by side: c x - s y beside
 # c y + s x (tools/check_fusion). With AVX-512 it also stored the four numbers {1, 1, 1, 0} as four ones (PageData's test sees it). Packs do
-# without that; what else it costs is a third of a deployment's and of a mesh's time.
+# without that, for they name their instructions (base/pack.h).
 set(unfused -fno-tree-slp-vectorize)
 set(PATENCY_ARCH_native -march=native ${unfused})
 set(PATENCY_ARCH_avx512 -march=x86-64-v4 ${unfused})

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__AVX2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -20,6 +20,8 @@ inline constexpr int register_bytes = 32;
 #else
 inline constexpr int register_bytes = 16;
 #endif
+
+#define PATENCY_INLINE [[gnu::always_inline]] inline
 
 template <class T>
 inline constexpr int native_lanes = register_bytes / int(sizeof(T));
@@ -40,9 +42,36 @@ template <int lanes> struct IntRegister;
 template <> struct IntRegister<4> { typedef std::int32_t type __attribute__((vector_size(16))); };
 template <> struct IntRegister<8> { typedef std::int32_t type __attribute__((vector_size(32))); };
 template <> struct IntRegister<16> { typedef std::int32_t type __attribute__((vector_size(64))); };
-}  // namespace detail
 
-#define PATENCY_INLINE [[gnu::always_inline]] inline
+// Roots and fused products have no operator, and a loop over lanes would be left as single steps: by hand for every register.
+// Registers that the processor lacks go lane by lane. In place, for they are no values that a function may return.
+template <class R>
+PATENCY_INLINE void take_root(R& a) {
+    for (unsigned l = 0; l < sizeof(R) / sizeof(a[0]); ++l) a[l] = std::sqrt(a[l]);
+}
+template <class R>
+PATENCY_INLINE void fuse(R& a, const R& b, const R& c) {
+    for (unsigned l = 0; l < sizeof(R) / sizeof(a[0]); ++l) a[l] = std::fma(a[l], b[l], c[l]);
+}
+#if defined(__SSE2__)
+PATENCY_INLINE void take_root(__m128& a) { a = _mm_sqrt_ps(a); }
+PATENCY_INLINE void take_root(__m128d& a) { a = _mm_sqrt_pd(a); }
+#endif
+#if defined(__AVX2__) && defined(__FMA__)
+PATENCY_INLINE void take_root(__m256& a) { a = _mm256_sqrt_ps(a); }
+PATENCY_INLINE void take_root(__m256d& a) { a = _mm256_sqrt_pd(a); }
+PATENCY_INLINE void fuse(__m128& a, const __m128& b, const __m128& c) { a = _mm_fmadd_ps(a, b, c); }
+PATENCY_INLINE void fuse(__m128d& a, const __m128d& b, const __m128d& c) { a = _mm_fmadd_pd(a, b, c); }
+PATENCY_INLINE void fuse(__m256& a, const __m256& b, const __m256& c) { a = _mm256_fmadd_ps(a, b, c); }
+PATENCY_INLINE void fuse(__m256d& a, const __m256d& b, const __m256d& c) { a = _mm256_fmadd_pd(a, b, c); }
+#endif
+#if defined(__AVX512F__)
+PATENCY_INLINE void take_root(__m512& a) { a = _mm512_sqrt_ps(a); }
+PATENCY_INLINE void take_root(__m512d& a) { a = _mm512_sqrt_pd(a); }
+PATENCY_INLINE void fuse(__m512& a, const __m512& b, const __m512& c) { a = _mm512_fmadd_ps(a, b, c); }
+PATENCY_INLINE void fuse(__m512d& a, const __m512d& b, const __m512d& c) { a = _mm512_fmadd_pd(a, b, c); }
+#endif
+}  // namespace detail
 
 template <class T, int W = native_lanes<T>>
 struct Pack {
@@ -68,15 +97,9 @@ struct Pack {
     PATENCY_INLINE Pack& operator*=(Pack b) { v *= b.v; return *this; }
     PATENCY_INLINE friend Pack max(Pack a, Pack b) { return Pack(a.v > b.v ? a.v : b.v); }
     PATENCY_INLINE friend Pack min(Pack a, Pack b) { return Pack(a.v < b.v ? a.v : b.v); }
-    PATENCY_INLINE friend Pack sqrt(Pack a) {
-        for (int l = 0; l < W; ++l) a.v[l] = std::sqrt(a.v[l]);
-        return a;
-    }
+    PATENCY_INLINE friend Pack sqrt(Pack a) { detail::take_root(a.v); return a; }
     /// a b + c with one rounding.
-    PATENCY_INLINE friend Pack fma(Pack a, Pack b, Pack c) {
-        for (int l = 0; l < W; ++l) a.v[l] = std::fma(a.v[l], b.v[l], c.v[l]);
-        return a;
-    }
+    PATENCY_INLINE friend Pack fma(Pack a, Pack b, Pack c) { detail::fuse(a.v, b.v, c.v); return a; }
 };
 
 // The same words for scalars, so that a law reads the same for both.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "patency/base/errors.h"
+#include "patency/base/pack.h"
 #include "patency/shape/ray_parity.h"
 #include "patency/shape/triangle_pairs.h"
 #include "patency/shape/triangle_tree.h"
@@ -27,7 +28,7 @@ double along(const Vec3& a, const Vec3& ab, const Vec3& x) {
 }
 
 double square_to(const Bounds& box, const Vec3& x) {
-    const auto beyond = [](double low, double high, double at) { return std::max({low - at, at - high, 0.0}); };
+    const auto beyond = [](double low, double high, double at) { return std::max(std::max(low - at, at - high), 0.0); };
     const Vec3 d{beyond(box.low.x, box.high.x, x.x), beyond(box.low.y, box.high.y, x.y),
                  beyond(box.low.z, box.high.z, x.z)};
     return dot(d, d);
@@ -62,38 +63,28 @@ NearestPlace nearest_of(const std::array<Vec3, 3>& p, const Vec3& x) {
 /// The triangles of a leaf side by side, the last of them again to fill it.
 struct Leaf {
     static constexpr int size = int(TriangleTree::leaf_size);
-    double a[3][size], b[3][size], c[3][size];   // corners
+    using P = Pack<double, size>;
+    Vec<P> a, b, c;   // corners
 
     void set(int n, const std::array<Vec3, 3>& p) {
-        a[0][n] = p[0].x, a[1][n] = p[0].y, a[2][n] = p[0].z;
-        b[0][n] = p[1].x, b[1][n] = p[1].y, b[2][n] = p[1].z;
-        c[0][n] = p[2].x, c[1][n] = p[2].y, c[2][n] = p[2].z;
+        for (const auto& [corner, at] : {std::pair{&a, p[0]}, {&b, p[1]}, {&c, p[2]}}) corner->x.v[n] = at.x, corner->y.v[n] = at.y, corner->z.v[n] = at.z;
     }
     /// The squares of their distances from x, to round-off. Without branches, so that triangles go side by side.
-    void squares_from(const Vec3& x, double* square) const {
-        const auto dot = [](double ux, double uy, double uz, double vx, double vy, double vz) { return ux * vx + uy * vy + uz * vz; };
-        const auto inverse = [](double length) { return 1 / std::max(length, 1e-300); };
-        for (int n = 0; n < size; ++n) {
-            const double px = x.x - a[0][n], py = x.y - a[1][n], pz = x.z - a[2][n];
-            const double qx = x.x - b[0][n], qy = x.y - b[1][n], qz = x.z - b[2][n];
-            const double ux = b[0][n] - a[0][n], uy = b[1][n] - a[1][n], uz = b[2][n] - a[2][n];   // ab, ac, bc
-            const double vx = c[0][n] - a[0][n], vy = c[1][n] - a[1][n], vz = c[2][n] - a[2][n];
-            const double wx = vx - ux, wy = vy - uy, wz = vz - uz;
-            const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-            const double uu = dot(ux, uy, uz, ux, uy, uz), uv = dot(ux, uy, uz, vx, vy, vz), vv = dot(vx, vy, vz, vx, vy, vz),
-                         nn = dot(nx, ny, nz, nx, ny, nz);
-            const double pu = dot(px, py, pz, ux, uy, uz), pv = dot(px, py, pz, vx, vy, vz), pn = dot(px, py, pz, nx, ny, nz);
-            const double per_nn = inverse(nn), s = (vv * pu - uv * pv) * per_nn, t = (uu * pv - uv * pu) * per_nn;
-            const auto to_side = [&](double dx, double dy, double dz, double ex, double ey, double ez) {
-                const double along = std::min(std::max(dot(dx, dy, dz, ex, ey, ez) * inverse(dot(ex, ey, ez, ex, ey, ez)), 0.0), 1.0);
-                const double fx = dx - along * ex, fy = dy - along * ey, fz = dz - along * ez;
-                return dot(fx, fy, fz, fx, fy, fz);
-            };
-            const double to_sides = std::min(std::min(to_side(px, py, pz, ux, uy, uz), to_side(px, py, pz, vx, vy, vz)),
-                                             to_side(qx, qy, qz, wx, wy, wz));
-            const double inside = std::min(std::min(s, t), 1 - s - t);   // nothing is over a triangle without area
-            square[n] = inside > 0 && nn > 0 ? pn * pn * per_nn : to_sides;
-        }
+    void squares_from(const Vec3& x, std::array<double, std::size_t(size)>& square) const {
+        const auto inverse = [](P length) { return P(1) / max(length, P(1e-300)); };
+        const Vec<P> at{P(x.x), P(x.y), P(x.z)}, p = at - a, q = at - b, ab = b - a, ac = c - a, normal = cross(ab, ac);
+        const P bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), nn = dot(normal, normal);
+        const P pb = dot(p, ab), pc = dot(p, ac), pn = dot(p, normal), per_nn = inverse(nn);
+        const P s = (cc * pb - bc * pc) * per_nn, t = (bb * pc - bc * pb) * per_nn;
+        const auto to_side = [&](const Vec<P>& from_start, const Vec<P>& side) {
+            const P along = min(max(dot(from_start, side) * inverse(dot(side, side)), P(0)), P(1));
+            const Vec<P> d = from_start - along * side;
+            return dot(d, d);
+        };
+        const P to_sides = min(min(to_side(p, ab), to_side(p, ac)), to_side(q, ac - ab)), to_plane = pn * pn * per_nn;
+        const P inside = min(min(s, t), P(1) - s - t);   // nothing is over a triangle without area
+        for (std::size_t n = 0; n < square.size(); ++n)
+            square[n] = inside[int(n)] > 0 && nn[int(n)] > 0 ? to_plane[int(n)] : to_sides[int(n)];
     }
 };
 
@@ -198,7 +189,7 @@ struct ExactSurface {
                 continue;
             }
             constexpr double round_off = 1e-9;   // a hundred thousand times that of both squares
-            double square_of[Leaf::size];
+            std::array<double, std::size_t(Leaf::size)> square_of;
             leaves[leaf_of[index]].squares_from(x, square_of);
             for (std::uint32_t k = node.begin; k < node.end; ++k) {
                 if (square_of[k - node.begin] > least * (1 + round_off)) continue;

@@ -13,7 +13,7 @@ namespace {
 Vec3 middle_of(const Bounds& box) { return 0.5 * (box.low + box.high); }
 
 double square_to_box(const Vec3& x, const Bounds& box) {
-    const auto beyond = [](double at, double low, double high) { return std::max({low - at, 0.0, at - high}); };
+    const auto beyond = [](double at, double low, double high) { return std::max(std::max(low - at, at - high), 0.0); };
     const Vec3 d{beyond(x.x, box.low.x, box.high.x), beyond(x.y, box.low.y, box.high.y),
                  beyond(x.z, box.low.z, box.high.z)};
     return dot(d, d);
