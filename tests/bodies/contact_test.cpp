@@ -130,6 +130,41 @@ TEST_P(Contacts, FrictionOpposesSlidingAndMomentumIsKept) {
     EXPECT_NEAR(-on_ball.x / on_ball.y, 0.3, 0.06);
 }
 
+// A sliver along a block's edge that has turned over faces into it, and most of all elements there: what hovers over the edge is still outside.
+TEST(SurfaceContact, AThinElementTellsNoSide) {
+    SolidFill fill = fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, spacing, false);
+    auto& [vertices, elements, face, faces] = fill.surface;
+    const auto on_edge = [&](std::uint32_t v) { return std::abs(vertices[v].x - 5e-3) < 1e-9 && std::abs(vertices[v].y) < 1e-9 && std::abs(vertices[v].z) < 3e-3; };
+    const auto is_top = [&](std::uint32_t v) { return std::abs(vertices[v].y) < 1e-9; };
+    std::size_t split = elements.size();
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        auto& [a, b, c] = elements[e];
+        for (int turn = 0; turn < 2 && !(on_edge(a) && on_edge(b)); ++turn) elements[e] = {b, c, a};
+        if (on_edge(a) && on_edge(b) && is_top(c) && !on_edge(c)) split = e;
+    }
+    ASSERT_LT(split, elements.size());
+    const auto [a, b, c] = elements[split];
+    const double side = norm(vertices[b] - vertices[a]);
+    const Vec3 middle = 0.5 * (vertices[a] + vertices[b]), diagonal = Vec3{1, 1, 0} / std::sqrt(2.0);
+    const auto m = std::uint32_t(vertices.size());
+    vertices.push_back(middle + 0.01 * side * Vec3{1, -1, 0});
+    elements[split] = {a, m, c};
+    elements.push_back({m, b, c}), face.push_back(face[split]);
+    elements.push_back({a, b, m}), face.push_back(face[split]);
+    Body block(fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
+    block.move({}), ball.move({});
+    const auto& places = ball.surface->position;
+    const Vec3 nearest = *std::min_element(places.begin(), places.end(), [](const Vec3& p, const Vec3& q) { return p.x + p.y < q.x + q.y; });
+    block.move({}), ball.move(middle + 0.1 * spacing * diagonal - nearest);
+    const auto contact = make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
+    contact->add_forces(0, 0);
+    EXPECT_EQ(contact->report().touching, 0u);
+    block.move({}), ball.move(-0.2 * spacing * diagonal);
+    contact->add_forces(0, 0);
+    EXPECT_GT(contact->report().touching, 0u);
+    EXPECT_LT(contact->report().deepest, 0.3 * spacing);
+}
+
 TEST(PlaneContact, PushesOutWhatIsBehind) {
     Body block(fill_box({0, 0, 0}, {5e-3, 4e-3, 0}, spacing, true), spacing, true);
     const auto contact = make_plane_contact(*block.surface, {0, 0.1e-3, 0}, {0, 1, 0}, {.friction = 0, .damping = 0, .step = step});

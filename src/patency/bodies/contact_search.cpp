@@ -52,7 +52,22 @@ ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& e
     reach_ = reach_in_elements * size_;
     margin_ = margin_in_elements * size_;
     if (&vertices_ == &elements_) exclude_near();
+    leave_out_thin();
     find();
+}
+
+/// Elements so thin that a bending of what carries them turns them over: their normals tell the wrong side. Without one its neighbours tell
+/// it, and the gap is no wider than it was high.
+void ContactSearch::leave_out_thin() {
+    constexpr double thin = 0.05;   // height over the longest side
+    const auto& mesh = elements_.mesh();
+    is_thin_.assign(mesh.elements.size(), 0);
+    if (elements_.planar()) return;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+        const auto& [ia, ib, ic] = mesh.elements[e];
+        const Vec3 ab = mesh.vertices[ib] - mesh.vertices[ia], ac = mesh.vertices[ic] - mesh.vertices[ia], bc = ac - ab;
+        is_thin_[e] = norm(cross(ab, ac)) < thin * std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+    }
 }
 
 /// Elements that a vertex reaches on a way of less than `apart` along the edges of the reference configuration.
@@ -117,7 +132,7 @@ void ContactSearch::find() {
     const Box near_vertices(vertices_.position);
     for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
         const Vec3& x = elements_.position[mesh.elements[e][0]];
-        if (near_vertices.contains(x, away + size)) cells[hash(x)].push_back(e);
+        if (!is_thin_[e] && near_vertices.contains(x, away + size)) cells[hash(x)].push_back(e);
     }
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
         const Vec3& x = vertices_.position[v];

@@ -28,12 +28,14 @@ public:
 private:
     void find();
     void exclude_near();
+    void leave_out_thin();
 
     const SolidSurface &vertices_, &elements_;
     double size_ = 0, reach_ = 0, margin_ = 0, moved_ = 0;   // size: of the largest element; [m]
     std::vector<Vec3> vertices_then_, elements_then_;
     Ragged<Candidate> candidates_;
     Ragged<std::uint32_t> excluded_;
+    std::vector<char> is_thin_;   // by element
 };
 
 }   // namespace patency
