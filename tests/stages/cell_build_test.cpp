@@ -141,5 +141,55 @@ TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
     }
 }
 
+// A jet over a step at a Reynolds number of 3000: no steady flow is found, and its means over time are.
+TEST(RunFlow, FollowsAFlowWithoutRestInTime) {
+    const deck::Case config = deck::parse_case(R"(version: 1
+case: {name: jet}
+geometry: {shape: {type: step, gap: "2 mm", length: "12 mm", step_height: "1 mm", step_at: "3 mm"}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlet: {type: velocity, profile: parabola, velocity: "5 m/s"}
+  outlet: {type: pressure, pressure: "0 Pa"}
+numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s", without_rest: follow}
+)");
+    const Folder folder;
+    const OutputFolder whole(folder.path / "whole"), out(folder.path / "parts");
+    ASSERT_EQ(run_flow(config, {.folder = whole}), Outcome::done);
+    const auto summary = nlohmann::json::parse(text_of(whole.file("summary.json")));
+    EXPECT_TRUE(summary["convergence"]["is_converged"]);
+    EXPECT_TRUE(summary["convergence"]["is_mean_over_time"]);
+    const double in = -double(summary["openings"]["inlet"]["flow_m3_per_s"]);
+    EXPECT_NEAR(in, 5 * 1e-3, 1e-12);   // per metre of depth
+    EXPECT_NEAR(double(summary["openings"]["outlet"]["flow_m3_per_s"]) / in, 1, 1e-3);
+    // Borda and Carnot: where a section doubles the jet's momentum raises the pressure.
+    EXPECT_LT(double(summary["openings"]["inlet"]["mean_pressure_pa"]), 0);
+    int steps = 0, runs = 1;   // and it goes on to the same bytes
+    while (run_flow(config, {.folder = out, .interrupted = [&] { return out.has_checkpoint("flow") ? ++steps % 150 == 0 : ++steps % 500 == 0; }}) ==
+           Outcome::interrupted)
+        ++runs;
+    EXPECT_GT(runs, 2);
+    EXPECT_EQ(text_of(whole.file("summary.json")), text_of(out.file("summary.json")));
+    EXPECT_EQ(text_of(whole.file("waveforms.csv")), text_of(out.file("waveforms.csv")));
+}
+
+// What rests goes on resting: the march begins with the steady flow's pressures and keeps them.
+TEST(CellMarch, KeepsASteadyFlow) {
+    const deck::Case config = deck::parse_case(R"(version: 1
+case: {name: tube}
+geometry: {shape: {type: tube, diameter: "2 mm", length: "6 mm", axis: [1, 2, -0.5]}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlet: {type: velocity, profile: parabola, velocity: "0.05 m/s"}
+  outlet: {type: resistance, resistance: "2e8 Pa s/m^3"}
+numerics: {scheme: cells, spacing: "0.2 mm", duration: "1 s"}
+)");
+    const auto solved = make_solved_scene(config);
+    const auto scene = build_cell_scene(config, *solved);
+    const double drop = scene->ends[0].mean_pressure - scene->ends[1].mean_pressure, flow = scene->ends[1].flow;
+    advance(*scene, {.until = 20 * 2e-3 / 0.1});   // twenty passages of the diameter
+    EXPECT_NEAR(scene->ends[1].flow / flow, 1, 1e-4);
+    EXPECT_NEAR((scene->ends[0].mean_pressure - scene->ends[1].mean_pressure) / drop, 1, 0.01);
+}
+
 }   // namespace
 }   // namespace patency

@@ -59,6 +59,10 @@ inline Words words(SchemeName) { return {"sph", "paper", "cells"}; }
 enum class Precision { mixed, double_ };   // "double" is a word of C++
 inline Words words(Precision) { return {"mixed", "double"}; }
 
+/// What a steady flow on cells gives whose jet has no rest: means over its last iterations, marked, or means over time.
+enum class WithoutRest { means, follow };
+inline std::vector<std::string_view> words(WithoutRest) { return {"means", "follow"}; }
+
 enum class PressureReference { moving, fixed };
 inline Words words(PressureReference) { return {"moving", "fixed"}; }
 
@@ -287,6 +291,7 @@ struct Numerics {
     Precision precision = Precision::mixed;
     double duration = 0;                      ///< s of simulated time
     std::optional<Convergence> convergence;   ///< absent: all of the duration is run
+    WithoutRest without_rest = WithoutRest::means;   ///< of a steady flow on cells
     int steps_per_period = 200;               ///< of a periodic flow on cells
     double advection_cfl = 0.25;              // Zhang et al. 2020, dual-criteria stepping
     double acoustic_cfl = 0.6;                // the same

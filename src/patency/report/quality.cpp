@@ -59,8 +59,10 @@ std::string mass(const Figures& f, const std::string& path) {
 std::string convergence(const Figures& f, const Json& part, const std::string& path) {
     const Mark mark = mark_of_convergence(part);
     if (mark == Mark::plain) return item(mark, "Convergence", "not watched: the run ended at the deck's duration");
-    return item(mark, "Convergence", fmt::format("{}; openings last moved by {}", mark == Mark::good ? "settled" : "<b>not settled</b>",
-                                                 f.with_unit(path + "/convergence/change_percent", {"%", 1, 3})));
+    const std::string verdict = mark == Mark::good ? "settled" : "<b>not settled</b>", change = path + "/convergence/change_percent";
+    const bool is_mean = part["convergence"].value("is_mean_over_time", false);
+    return item(mark, "Convergence", fmt::format("{}; {} last moved by {}", verdict, is_mean ? "a jet has no rest: means over time at the openings" : "openings",
+                                                 f.with_unit(change, {"%", 1, 3})));
 }
 
 std::string resolution(const Figures& f, const Json& part, const std::string& path) {

@@ -55,8 +55,7 @@ void CellMarch::start_feeding() {
 
 FlowStep CellMarch::step(double time, double longest) {
     constexpr double growth = 2, shortest = 1e-3;   // of steps from one to the next (2.4 is where (18.16) grows by itself); of the longest
-    double allowed = domain_.longest_step;
-    if (dt_before_ > 0) allowed = std::min(allowed, growth * dt_before_);
+    const double allowed = std::min(domain_.longest_step, dt_before_ > 0 ? growth * dt_before_ : domain_.first_step);
     const bool fits = longest <= allowed * (1 + 1e-6);   // no crumb of round-off is left behind
     const auto before = state();
     for (double dt = fits ? longest : allowed;; dt *= 0.5) {
@@ -127,7 +126,8 @@ void CellMarch::start_from_extrapolation(const TimeRate& rate, double dt) {
 }
 
 int CellMarch::solve() {
-    CellSolverSettings settings{.tolerance = tolerance,
+    CellSolverSettings settings{.tolerance = domain_.each_step.tolerance,
+                                .least_iterations = domain_.each_step.least,
                                 .most_iterations = most_iterations,
                                 .first_courant = first_courant,
                                 .courant = courant,

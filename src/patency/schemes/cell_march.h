@@ -22,6 +22,12 @@ struct MarchedEnd {
     double viscosity;   ///< kinematic, of what comes a long way to it [m^2/s]
 };
 
+/// Newton's steps of a step in time.
+struct MarchedStep {
+    double tolerance = 1e-4;   ///< they end when cells lack this of the greatest flow and forces so far
+    int least = 0;             ///< and not before so many
+};
+
 /// What a march works on; all but the mesh must outlive it.
 struct CellMarchDomain {
     CellMesh mesh;   ///< of the particles, in their order
@@ -29,14 +35,12 @@ struct CellMarchDomain {
     FluidParticles& fluid;
     std::vector<OpenEnd>& ends;
     std::vector<MarchedEnd> marched;   ///< as the ends
-    double reference_speed, longest_step;   ///< [m/s], [s]
+    double reference_speed, first_step, longest_step;   ///< [m/s], [s]
+    MarchedStep each_step = {};
 };
 
 class CellMarch : public FlowScheme {
 public:
-    /// Newton's steps of a time step end when cells lack this of the greatest flow and forces so far.
-    static constexpr double tolerance = 1e-4;
-
     /// From the velocities and the ends' flows that are there.
     explicit CellMarch(CellMarchDomain domain);
 

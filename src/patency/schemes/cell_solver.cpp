@@ -128,7 +128,7 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
                      worst = std::max(volume, momentum);
         const bool is_lost = !std::isfinite(worst);
         if (is_lost && best.pressure.empty()) throw fail("lost its numbers");
-        if (volume < settings.tolerance && momentum < settings.tolerance) {
+        if (step >= settings.least_iterations && worst < settings.tolerance) {
             solution.is_converged = true;
             solution.history.push_back({volume, momentum, 0, 0, courant});
             return solution;
@@ -147,6 +147,13 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
         if (watch.is_stalled() && limit > first_limit) {   // long steps by a matrix of first order may go round in circles
             limit = first_limit, courant = std::min(courant, limit);
             watch = {};
+        }
+        if (settings.gives_up && (step == settings.most_iterations || (watch.is_stalled() && watch.is_standing()))) {
+            balance.set_fields(best), balance.restore_end_memory(best_ends);
+            balance.compute_residual(kappa);
+            solution.is_given_up = true;
+            solution.history.push_back({balance.volume_residual(), balance.momentum_residual(), 0, 0, courant});
+            return solution;
         }
         const bool is_late = step + int(StallWatch::window) > settings.most_iterations;   // the last chance
         if (mean.count() > 0 || (watch.is_stalled() && (watch.is_standing() || (is_late && watch.is_bearable())))) mean.add(balance.fields());
@@ -185,8 +192,6 @@ void append(CellSolution& solution, const CellSolution& before) {
     solution.history.insert(solution.history.begin(), before.history.begin(), before.history.end());
     solution.linear_steps += before.linear_steps;
 }
-
-bool is_interrupted(const CellSolution& solution) { return !solution.is_converged && !solution.is_settled; }
 
 }   // namespace
 

@@ -16,6 +16,8 @@ namespace patency {
 
 namespace {
 
+bool is_periodic(const Scene& scene) { return scene.config.about.mode == deck::Mode::periodic; }
+
 /// What an opening's waveform is at first; the mean of a flow that nearly rests then, which no steady flow can be found from.
 double start_of(const EndLaw& law) {
     constexpr double nearly_at_rest = 0.1;
@@ -56,7 +58,32 @@ std::vector<MarchedEnd> marched_ends(const Scene& scene, const Rheology& rheolog
     return ends;
 }
 
+/// How long blood takes to pass the narrowest place's diameter [s].
+double passage_of(const Scene& scene) { return scene.lumen.narrowest / scene.numerics.reference_speed; }
+
+/// Of a pulse as the deck says. Of a jet that swings a half of its passage: its eddies, about as wide, go by in four.
+double longest_step_of(const Scene& scene) {
+    constexpr double per_passage = 0.5;
+    return is_periodic(scene) ? *scene.config.about.period / scene.config.numerics.steps_per_period : per_passage * passage_of(scene);
+}
+
+/// A flow without rest is watched in windows of so many passages: a jet swings to and fro once in three or five, what it leaves behind goes round
+/// ten times as slowly. The deck's own times are those of moving particles, which start from rest.
+void watch_jets(Scene& scene) {
+    constexpr double passages = 50, windows = 40;
+    deck::Numerics& numerics = scene.config.numerics;
+    if (!numerics.convergence) numerics.convergence.emplace();
+    numerics.convergence->window = passages * passage_of(scene);
+    numerics.duration = windows * *numerics.convergence->window;
+}
+
+/// Two Newton's steps leave a tenth of what changes in a step, and means ask for no more.
+constexpr MarchedStep of_jets{.tolerance = 5e-3, .least = 2};
+
 void start_march(Scene& scene, CellMesh mesh) {
+    if (!is_periodic(scene)) watch_jets(scene);
+    constexpr double careful = 1.0 / 64;   // a jet was left somewhere on its way
+    const double longest = longest_step_of(scene);
     const Rheology rheology = make_rheology(scene.config.blood);
     auto march = std::make_unique<CellMarch>(
         CellMarchDomain{.mesh = std::move(mesh),
@@ -65,7 +92,9 @@ void start_march(Scene& scene, CellMesh mesh) {
                         .ends = scene.ends,
                         .marched = marched_ends(scene, rheology),
                         .reference_speed = scene.numerics.reference_speed,
-                        .longest_step = *scene.config.about.period / scene.config.numerics.steps_per_period});
+                        .first_step = is_periodic(scene) ? longest : careful * longest,
+                        .longest_step = longest,
+                        .each_step = is_periodic(scene) ? MarchedStep{} : of_jets});
     const CellMarch& started = *march;
     march->update_ends = [&scene](std::span<OpenEnd> ends, double time, double dt) { impose_laws_ahead(scene.laws, ends, time, dt); };
     march->settle_ends = [&scene, &started] {
@@ -101,6 +130,14 @@ void start_ends(Scene& scene, std::span<const CellEndState> states) {
         if (law.outlet && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
             law.state = make_steady_state(*law.outlet, states[k].flow);
     }
+}
+
+void go_on(Scene& scene, const CellScene& solved) {
+    scene.spacing_at = solved.spacing_at;
+    place_cells(scene, solved.mesh);
+    set_flow(scene, solved.balance->fields());
+    start_ends(scene, solved.balance->end_states());
+    start_march(scene, solved.mesh);
 }
 
 }   // namespace
@@ -159,12 +196,13 @@ std::unique_ptr<Scene> build_cell_scene(const deck::Case& config) {
         start_march(*scene, std::move(mesh));
         return scene;
     }
-    const auto solved = make_solved_scene(start_of(scene->config, *scene));
-    scene->spacing_at = solved->spacing_at;
-    place_cells(*scene, solved->mesh);
-    set_flow(*scene, solved->balance->fields());
-    start_ends(*scene, solved->balance->end_states());
-    start_march(*scene, solved->mesh);
+    go_on(*scene, *make_solved_scene(start_of(scene->config, *scene)));
+    return scene;
+}
+
+std::unique_ptr<Scene> build_cell_scene(const deck::Case& config, const CellScene& solved) {
+    auto scene = build_frame_of_cells(config);
+    go_on(*scene, solved);
     return scene;
 }
 

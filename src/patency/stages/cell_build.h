@@ -7,6 +7,7 @@
 
 #include "patency/cells/cell_mesh.h"
 #include "patency/schemes/cell_balance.h"
+#include "patency/stages/cell_scene.h"
 #include "patency/stages/scene.h"
 
 namespace patency {
@@ -14,6 +15,10 @@ namespace patency {
 /// Ready for its first step: with the deck's initial velocity, or else the steady flow of what the openings do at first. Throws DeckError,
 /// GeometryError, FileError, DivergedError.
 std::unique_ptr<Scene> build_cell_scene(const deck::Case& config);
+
+/// The same from a solved flow of that case. A steady case's goes on in time because it has no rest: its config's duration and windows become
+/// such a flow's.
+std::unique_ptr<Scene> build_cell_scene(const deck::Case& config, const CellScene& solved);
 
 /// The same with blood at rest, into which a checkpoint is read.
 std::unique_ptr<Scene> build_cell_frame(const deck::Case& config);

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
@@ -20,6 +19,7 @@
 #include "patency/stages/cell_vessel.h"
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_means.h"
+#include "patency/stages/offenders.h"
 #include "patency/stages/stopwatch.h"
 
 namespace patency {
@@ -68,16 +68,9 @@ void write_wall(const OutputFolder& folder, const CellScene& scene) {
 
 /// Writes the cells that lack most, those without numbers first, and says where the first of them is.
 std::string describe_remains(const OutputFolder& folder, const CellScene& scene) {
-    constexpr std::size_t most = 1000;   // enough to see where
-    std::vector<std::uint32_t> worst(scene.mesh.size());
-    std::iota(worst.begin(), worst.end(), 0u);
     std::vector<double> lack;
-    for (std::size_t i = 0; i < worst.size(); ++i) lack.push_back(scene.balance->lack(i));
-    const auto badness = [&](std::uint32_t i) { return std::isfinite(lack[i]) ? lack[i] : INFINITY; };
-    const std::size_t count = std::min(most, worst.size());
-    std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end(),
-                      [&](std::uint32_t a, std::uint32_t b) { return badness(a) != badness(b) ? badness(a) > badness(b) : a < b; });
-    worst.resize(count);
+    for (std::size_t i = 0; i < scene.mesh.size(); ++i) lack.push_back(scene.balance->lack(i));
+    const std::vector<std::uint32_t> worst = worst_of(lack);
     const CellFields fields = scene.balance->fields();
     std::vector<Vec3> velocity;
     PolyData data;
@@ -159,7 +152,7 @@ Json make_cell_summary(const CellScene& scene) {
     return summary;
 }
 
-Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
+Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage, const std::function<Outcome(const CellScene&)>& follow) {
     const Stopwatch watch;
     const auto say = [&](const std::string& line) { stage.log(LogLevel::info, line); };
     deck::write_case(config, stage.folder.file("case.resolved.yaml"));
@@ -187,11 +180,16 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
         if (stage.progress) stage.progress->update(progress_of(now));
         return stage.interrupted && stage.interrupted();
     }, [&](const CellScene& lost) { return describe_remains(stage.folder, lost); });
-    if (!scene->solution.is_converged && !scene->solution.is_settled) {
+    if (is_interrupted(scene->solution)) {
         say("interrupted; the flow on cells begins anew the next time");
         return Outcome::interrupted;
     }
     if (stage.progress) stage.progress->finish(progress_of(*scene));
+    if (scene->solution.is_given_up) {
+        say(fmt::format("the flow has no rest: after {} steps its cells lack {:.1g} of it. It is followed in time, and means over time are the answer",
+                        scene->solution.history.size(), std::max(scene->balance->volume_residual(), scene->balance->momentum_residual())));
+        return follow(*scene);
+    }
     write_cells(stage.folder, *scene);
     write_wall(stage.folder, *scene);
     Json summary = make_cell_summary(*scene);
@@ -210,7 +208,7 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage) {
         say("solved by the damped transport (THEORY 18.5), for the sharp one finds no rest here: a pressure drop may be some per cent less exact");
     if (scene->solution.is_converged) return Outcome::done;
     stage.log(LogLevel::warning, fmt::format("the flow does not come to rest (the cells lack {:.1g} of it): the results are marked; they are means "
-                    "over the last steps, while flows and pressures at the openings stood within {:.2g} %",
+                    "over the last steps, while flows and pressures at the openings stood within {:.2g} %; numerics.without_rest: follow takes means over time, which lasts ten times as long",
                     std::max(scene->balance->volume_residual(), scene->balance->momentum_residual()), 100 * scene->solution.swing));
     return Outcome::unsettled;
 }

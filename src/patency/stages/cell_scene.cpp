@@ -23,6 +23,7 @@ constexpr double steady_time = 1e6;         // s: when every rise from rest is o
 constexpr double coarsening = 1.6;          // of the spacing of the first solution: a quarter of the cells
 constexpr double fewest_across = 6;         // of the narrowest place, in a first solution
 constexpr double coarse_tolerance = 1e-3;   // of it: less than what the coarse cells err by
+constexpr int fading = 60;                  // steps
 
 OpenEnd::Kind kind_of(const EndLaw& law) {
     return law.prescribes_flow() ? OpenEnd::Kind::velocity : OpenEnd::Kind::pressure;
@@ -150,7 +151,9 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
         auto scene = make_cell_scene(config, lumen, field ? make_cell_points(lumen, field->scaled(coarser_by))
                                                           : make_cell_points(lumen, coarser_by * numerics.spacing));
         scene->vessel = vessel;
-        CellSolverSettings settings{.tolerance = tolerance};
+        CellSolverSettings settings{.tolerance = tolerance, .gives_up = numerics.without_rest == deck::WithoutRest::follow};
+        // Nor would finer cells find rest: only what the coarse ones' fields lack on them is to fade.
+        if (coarser && coarser->solution.is_given_up) settings.most_iterations = fading;
         if (watch) settings.interrupted = [&] { return watch(*scene); };
         try {
             solve_scene(*scene, coarser, settings);
@@ -163,7 +166,7 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
     std::unique_ptr<CellScene> coarse;
     if (across > fewest_across * coarsening) {
         coarse = solved(coarsening, nullptr, coarse_tolerance);
-        if (!coarse->solution.is_converged && !coarse->solution.is_settled) return coarse;   // interrupted
+        if (is_interrupted(coarse->solution)) return coarse;
     }
     return solved(1, coarse.get(), CellSolverSettings{}.tolerance);
 }

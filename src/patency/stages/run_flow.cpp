@@ -9,7 +9,6 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 
 #include "patency/base/errors.h"
@@ -20,11 +19,13 @@
 #include "patency/io/summary.h"
 #include "patency/io/vtp.h"
 #include "patency/stages/build.h"
+#include "patency/stages/cell_build.h"
 #include "patency/stages/cell_flow.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_recorder.h"
 #include "patency/stages/flow_window.h"
+#include "patency/stages/offenders.h"
 #include "patency/stages/stopwatch.h"
 #include "patency/stages/vessel_results.h"
 
@@ -34,16 +35,19 @@ namespace {
 
 // Instants that the means along a vessel are made of: a steady flow only trembles, a pulse has its form.
 constexpr int steady_instants = 5, periodic_instants = 40;
-constexpr std::size_t most_offenders = 1000;   // of a run that diverged: enough to see where
+
+bool is_steady_on_cells(const deck::Case& config) { return config.scheme() == deck::SchemeName::cells && config.about.mode == deck::Mode::steady; }
 
 /// One flow stage from its folder's state to its end.
 class FlowJob {
 public:
-    FlowJob(const deck::Case& config, const FlowStage& stage)
-        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("flow")) {
-        prepare();
+    /// watch: since the stage began. restless: a steady flow on cells that has no rest and is followed in time.
+    FlowJob(const deck::Case& config, const FlowStage& stage, const Stopwatch& watch, const CellScene* restless = nullptr)
+        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("flow")), watch_(watch) {
+        prepare(restless);
         expect_fields();
-        if (is_on_cells()) say(fmt::format("{} cells, {} steps in a period", scene_->fluid.size(), config_.numerics.steps_per_period));
+        if (is_steady_on_cells(config_)) say(fmt::format("windows of {:.3g} ms, at most {:.3g} ms", 1e3 * window_->length(), 1e3 * config_.numerics.duration));
+        else if (is_on_cells()) say(fmt::format("{} cells, {} steps in a period", scene_->fluid.size(), config_.numerics.steps_per_period));
         else say(fmt::format("{} particles of blood, {} of wall, sound speed {:.4g} m/s", scene_->fluid.size(), scene_->wall.size(),
                              scene_->material.sound_speed));
         build_wall_ = watch_.wall(), build_cpu_ = watch_.cpu();
@@ -63,7 +67,7 @@ private:
 
     bool is_on_cells() const { return config_.scheme() == deck::SchemeName::cells; }
 
-    void prepare() {
+    void prepare(const CellScene* restless) {
         std::optional<CheckpointReader> reader;
         if (stage_.folder.has_checkpoint("flow")) {
             reader.emplace(checkpoint_);
@@ -72,8 +76,9 @@ private:
             say(fmt::format("goes on at {:.6g} s", scene_->time));
         } else {
             deck::write_case(config_, stage_.folder.file("case.resolved.yaml"));
-            scene_ = build_scene(config_);
+            scene_ = restless ? build_cell_scene(config_, *restless) : build_scene(config_);
         }
+        config_.numerics = scene_->config.numerics;   // whose times a flow without rest has chosen
         recorder_.emplace(*scene_);
         window_.emplace(*scene_);
         if (scene_->vessel) vessel_.emplace(*scene_);
@@ -135,7 +140,8 @@ private:
             summary["convergence"] = {{"is_converged", window_->is_settled()},
                                       {"change_percent", window_->change_percent()},
                                       {"tolerance_percent", config_.numerics.convergence->tolerance_percent},
-                                      {"window_s", window_->length()}};
+                                      {"window_s", window_->length()},
+                                      {"is_mean_over_time", is_steady_on_cells(config_)}};
         if (vessel_) {
             std::vector<double> pressures;
             for (std::size_t k = 0; k < scene_->ends.size(); ++k) pressures.push_back(mean_between(from, to, k, scene_->ends[k].area).pressure);
@@ -154,7 +160,8 @@ private:
     bool is_instant_due() const {
         if (!vessel_ || !window_->begin()) return false;
         const double begin = window_->begin()->time, length = window_->end() - begin;
-        const int wanted = config_.about.mode == deck::Mode::periodic ? periodic_instants : steady_instants;
+        const bool has_form = config_.about.mode == deck::Mode::periodic || is_steady_on_cells(config_);   // a pulse, or a jet that swings
+        const int wanted = has_form ? periodic_instants : steady_instants;
         return double(vessel_->instants()) < std::floor((scene_->time - begin) / length * wanted + 1e-9);
     }
 
@@ -217,28 +224,19 @@ private:
     std::string describe_remains() const {
         const FluidParticles& fluid = scene_->fluid;
         std::vector<double> badness(fluid.size());
-        for (std::size_t i = 0; i < fluid.size(); ++i) {
-            const double all = norm(fluid.velocity[i]) + 0 * (fluid.pressure[i] + norm(fluid.position[i]));
-            badness[i] = std::isfinite(all) ? all : INFINITY;
-        }
-        std::vector<std::uint32_t> worst(fluid.size());
-        std::iota(worst.begin(), worst.end(), 0u);
-        const std::size_t count = std::min(most_offenders, worst.size());
-        std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return badness[a] != badness[b] ? badness[a] > badness[b] : a < b;
-        });
-        worst.resize(count);
+        for (std::size_t i = 0; i < fluid.size(); ++i) badness[i] = norm(fluid.velocity[i]) + 0 * (fluid.pressure[i] + norm(fluid.position[i]));
+        const std::vector<std::uint32_t> worst = worst_of(badness);
         const auto path = stage_.folder.file("offenders.vtp");
         write_particles(path, fluid, {.time = scene_->time, .only = worst, .pressure_level = scene_->reference_pressure, .non_finite = NonFinite::allow});
         return fmt::format("; at {:.6g} s. The fastest particles are in {}{}", scene_->time, path.string(),
                            stage_.folder.has_checkpoint("flow") ? ", the last good checkpoint is kept" : "");
     }
 
-    const deck::Case& config_;
+    deck::Case config_;
     const FlowStage& stage_;
     CheckpointOrigin origin_;
     std::filesystem::path checkpoint_;
-    Stopwatch watch_;
+    const Stopwatch watch_;
     std::unique_ptr<Scene> scene_;
     std::optional<FlowRecorder> recorder_;
     std::optional<FlowWindow> window_;
@@ -254,8 +252,9 @@ private:
 }  // namespace
 
 Outcome run_flow(const deck::Case& config, const FlowStage& stage) {
-    const bool is_steady_on_cells = config.scheme() == deck::SchemeName::cells && config.about.mode == deck::Mode::steady;
-    return is_steady_on_cells ? run_cell_flow(config, stage) : FlowJob(config, stage).run();
+    const Stopwatch watch;
+    if (!is_steady_on_cells(config) || stage.folder.has_checkpoint("flow")) return FlowJob(config, stage, watch).run();
+    return run_cell_flow(config, stage, [&](const CellScene& restless) { return FlowJob(config, stage, watch, &restless).run(); });
 }
 
 }  // namespace patency
