@@ -130,19 +130,27 @@ TEST_P(Contacts, FrictionOpposesSlidingAndMomentumIsKept) {
     EXPECT_NEAR(-on_ball.x / on_ball.y, 0.3, 0.06);
 }
 
+namespace {
+
+/// An element of the top of the block from (-5, -4, -4) to (5, 0, 4) mm whose first side lies on the edge x = 5 mm, y = 0.
+std::size_t split_at_edge(SurfaceElements& mesh) {
+    const auto on_edge = [&](std::uint32_t v) { const Vec3& x = mesh.vertices[v]; return std::abs(x.x - 5e-3) < 1e-9 && std::abs(x.y) < 1e-9 && std::abs(x.z) < 3e-3; };
+    const auto is_top = [&](std::uint32_t v) { return std::abs(mesh.vertices[v].y) < 1e-9; };
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+        auto& [a, b, c] = mesh.elements[e];
+        for (int turn = 0; turn < 2 && !(on_edge(a) && on_edge(b)); ++turn) mesh.elements[e] = {b, c, a};
+        if (on_edge(a) && on_edge(b) && is_top(c) && !on_edge(c)) return e;
+    }
+    throw std::runtime_error("no element at the edge");
+}
+
+}   // namespace
+
 // A sliver along a block's edge that has turned over faces into it, and most of all elements there: what hovers over the edge is still outside.
 TEST(SurfaceContact, AThinElementTellsNoSide) {
     SolidFill fill = fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, spacing, false);
     auto& [vertices, elements, face, faces] = fill.surface;
-    const auto on_edge = [&](std::uint32_t v) { return std::abs(vertices[v].x - 5e-3) < 1e-9 && std::abs(vertices[v].y) < 1e-9 && std::abs(vertices[v].z) < 3e-3; };
-    const auto is_top = [&](std::uint32_t v) { return std::abs(vertices[v].y) < 1e-9; };
-    std::size_t split = elements.size();
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-        auto& [a, b, c] = elements[e];
-        for (int turn = 0; turn < 2 && !(on_edge(a) && on_edge(b)); ++turn) elements[e] = {b, c, a};
-        if (on_edge(a) && on_edge(b) && is_top(c) && !on_edge(c)) split = e;
-    }
-    ASSERT_LT(split, elements.size());
+    const std::size_t split = split_at_edge(fill.surface);
     const auto [a, b, c] = elements[split];
     const double side = norm(vertices[b] - vertices[a]);
     const Vec3 middle = 0.5 * (vertices[a] + vertices[b]), diagonal = Vec3{1, 1, 0} / std::sqrt(2.0);
@@ -163,6 +171,29 @@ TEST(SurfaceContact, AThinElementTellsNoSide) {
     contact->add_forces(0, 0);
     EXPECT_GT(contact->report().touching, 0u);
     EXPECT_LT(contact->report().deepest, 0.3 * spacing);
+}
+
+// Over a strip of thin elements along an edge, a trifle behind the plane of the side that meets it there: outside too.
+TEST(SurfaceContact, WhatHoversOverAThinStripIsOutside) {
+    SolidFill fill = fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, spacing, false);
+    auto& [vertices, elements, face, faces] = fill.surface;
+    const std::size_t split = split_at_edge(fill.surface);
+    const auto [a, b, c] = elements[split];
+    const auto p = std::uint32_t(vertices.size()), q = p + 1;
+    const Vec3 middle = 0.5 * (vertices[a] + vertices[b]), in = vertices[c] - middle;
+    vertices.push_back(vertices[a] + 0.03 * (vertices[c] - vertices[a]));
+    vertices.push_back(vertices[b] + 0.03 * (vertices[c] - vertices[b]));
+    elements[split] = {p, q, c};
+    elements.push_back({a, b, q}), face.push_back(face[split]);
+    elements.push_back({a, q, p}), face.push_back(face[split]);
+    Body block(fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
+    block.move({}), ball.move({});
+    const auto& places = ball.surface->position;
+    const Vec3 lowest = *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
+    block.move({}), ball.move(middle + 0.01 * in + Vec3{0, 0.1 * spacing, 0} - lowest);
+    const auto contact = make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
+    contact->add_forces(0, 0);
+    EXPECT_EQ(contact->report().touching, 0u);
 }
 
 TEST(PlaneContact, PushesOutWhatIsBehind) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
 #include <unordered_map>
 
@@ -52,21 +53,31 @@ ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& e
     reach_ = reach_in_elements * size_;
     margin_ = margin_in_elements * size_;
     if (&vertices_ == &elements_) exclude_near();
-    leave_out_thin();
+    find_facing();
     find();
 }
 
-/// Elements so thin that a bending of what carries them turns them over: their normals tell the wrong side. Without one its neighbours tell
-/// it, and the gap is no wider than it was high.
-void ContactSearch::leave_out_thin() {
+void ContactSearch::find_facing() {
     constexpr double thin = 0.05;   // height over the longest side
     const auto& mesh = elements_.mesh();
-    is_thin_.assign(mesh.elements.size(), 0);
+    facing_.resize(mesh.elements.size());
+    std::iota(facing_.begin(), facing_.end(), 0u);
     if (elements_.planar()) return;
+    std::vector<Vec3> normal(mesh.elements.size());
+    std::vector<char> is_thin(mesh.elements.size());
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
         const auto& [ia, ib, ic] = mesh.elements[e];
-        const Vec3 ab = mesh.vertices[ib] - mesh.vertices[ia], ac = mesh.vertices[ic] - mesh.vertices[ia], bc = ac - ab;
-        is_thin_[e] = norm(cross(ab, ac)) < thin * std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+        const Vec3 ab = mesh.vertices[ib] - mesh.vertices[ia], ac = mesh.vertices[ic] - mesh.vertices[ia], bc = ac - ab, across = cross(ab, ac);
+        is_thin[e] = norm(across) < thin * std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+        normal[e] = norm(across) > 0 ? normalized(across) : Vec3{};
+    }
+    const auto& at = elements_.elements_at();
+    for (std::uint32_t e = 0; e < facing_.size(); ++e) {
+        if (!is_thin[e]) continue;
+        double nearest = -2;
+        for (const std::uint32_t v : mesh.elements[e])
+            for (const std::uint32_t* other = at.begin(v); other < at.end(v); ++other)
+                if (const double alike = dot(normal[e], normal[*other]); !is_thin[*other] && alike > nearest) nearest = alike, facing_[e] = *other;
     }
 }
 
@@ -132,7 +143,7 @@ void ContactSearch::find() {
     const Box near_vertices(vertices_.position);
     for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
         const Vec3& x = elements_.position[mesh.elements[e][0]];
-        if (!is_thin_[e] && near_vertices.contains(x, away + size)) cells[hash(x)].push_back(e);
+        if (near_vertices.contains(x, away + size)) cells[hash(x)].push_back(e);
     }
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
         const Vec3& x = vertices_.position[v];

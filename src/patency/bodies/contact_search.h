@@ -22,20 +22,23 @@ public:
     const Ragged<Candidate>& candidates() const { return candidates_; }
     /// How far vertices and elements together have moved at most since then, as of the last update [m].
     double moved() const { return moved_; }
+    /// The element whose normal tells where the outside of this one is: itself, or, where it is so thin that a bending of what carries it may
+    /// turn it over, a neighbour that faced most nearly the same way in the reference configuration.
+    std::uint32_t facing(std::uint32_t element) const { return facing_[element]; }
     /// How deep a vertex may be in, and how far an element is looked for [m].
     double reach() const { return reach_; }
 
 private:
     void find();
     void exclude_near();
-    void leave_out_thin();
+    void find_facing();
 
     const SolidSurface &vertices_, &elements_;
     double size_ = 0, reach_ = 0, margin_ = 0, moved_ = 0;   // size: of the largest element; [m]
     std::vector<Vec3> vertices_then_, elements_then_;
     Ragged<Candidate> candidates_;
     Ragged<std::uint32_t> excluded_;
-    std::vector<char> is_thin_;   // by element
+    std::vector<std::uint32_t> facing_;
 };
 
 }   // namespace patency
