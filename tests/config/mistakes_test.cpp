@@ -53,6 +53,12 @@ TEST(Mistakes, SpacingThatFollowsTheVessel) {
               only("19:21: numerics.smallest_spacing: is more than numerics.largest_spacing, 0.1 mm"));
 }
 
+TEST(Mistakes, FlowsThatNobodyFollows) {
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  scheme: sph\n  without_rest: follow\n  spacing:")),
+              only("17:17: numerics.without_rest: is for a steady flow of scheme cells"));
+    EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  scheme: cells\n  without_rest: follow\n  spacing:")), mistakes_in(pipe_with("  spacing:", "  scheme: cells\n  spacing:")));
+}
+
 TEST(Mistakes, OfSolids) {
     const auto with = [](const std::string& part, const std::string& replacement) {
         std::string text = solid_deck;

@@ -186,7 +186,10 @@ numerics: {scheme: cells, spacing: "0.2 mm", duration: "1 s"}
     const auto solved = make_solved_scene(config);
     const auto scene = build_cell_scene(config, *solved);
     const double drop = scene->ends[0].mean_pressure - scene->ends[1].mean_pressure, flow = scene->ends[1].flow;
-    advance(*scene, {.until = 20 * 2e-3 / 0.1});   // twenty passages of the diameter
+    advance(*scene, {.until = 20 * 2e-3 / 0.1, .observe = [&](const Scene& now, const FlowStep&) {   // twenty passages of the diameter
+                         EXPECT_NEAR(now.ends[1].flow / flow, 1, 1e-3) << now.time;
+                         EXPECT_NEAR((now.ends[0].mean_pressure - now.ends[1].mean_pressure) / drop, 1, 0.02) << now.time;
+                     }});
     EXPECT_NEAR(scene->ends[1].flow / flow, 1, 1e-4);
     EXPECT_NEAR((scene->ends[0].mean_pressure - scene->ends[1].mean_pressure) / drop, 1, 0.01);
 }

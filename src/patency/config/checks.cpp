@@ -141,6 +141,8 @@ private:
         expect(!n.across || case_.scheme() == SchemeName::cells, "numerics.across",
                "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing", {"numerics.scheme"});
         expect(!n.across || case_.solids.empty(), "numerics.across", "is for blood; solids need numerics.spacing");
+        expect(n.without_rest == WithoutRest::means || (case_.scheme() == SchemeName::cells && case_.about.mode == Mode::steady), "numerics.without_rest",
+               "is for a steady flow of scheme cells", {"numerics.scheme"});
         expect(n.across || !n.smallest_spacing, "numerics.smallest_spacing", "means something with numerics.across only");
         expect(n.across || !n.largest_spacing, "numerics.largest_spacing", "means something with numerics.across only");
         if (n.smallest_spacing && n.largest_spacing)
