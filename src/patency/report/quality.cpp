@@ -87,7 +87,7 @@ std::string estimate(const Figures& f, const std::string& lesion) {
 std::string scheme(const Figures& f, const std::string& path) {
     const std::string name = f.text(path + "/scheme");
     const bool is_in_time = f.has(path + "/time_steps");
-    const char* words = name == "cells"   ? (is_in_time ? "periodic flow on the cells of still particles" : "steady flow on the cells of still particles")
+    const char* words = name == "cells"   ? (is_in_time ? "flow in time on the cells of still particles" : "steady flow on the cells of still particles")
                         : name == "paper" ? "moving particles, as the reference paper does"
                                           : "moving particles";
     return name.empty() ? "" : item(Mark::plain, "Method", words);
