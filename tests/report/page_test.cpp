@@ -98,6 +98,8 @@ TEST(Page, SaysByWhatMethodTheFlowWasFound) {
     EXPECT_TRUE(has(page_of(summary), "steady flow on the cells"));
     summary["time_steps"] = 400;
     EXPECT_TRUE(has(page_of(summary), "periodic flow on the cells"));
+    summary["convergence"] = {{"is_converged", true}, {"change_percent", 0.2}, {"is_mean_over_time", true}};
+    EXPECT_TRUE(has(page_of(summary), "followed in time on the cells"));
 }
 
 TEST(Page, SaysWhatResultsHaveNone) {

@@ -56,12 +56,14 @@ std::string mass(const Figures& f, const std::string& path) {
     return item(mark_of_mass(f, path), "Mass balance", f.with_unit(pointer, {"%", 1, 3}) + " of the flow is out of balance");
 }
 
+/// Whether a flow that has no rest was followed in time.
+bool is_mean_over_time(const Json& part) { return part.contains("convergence") && part["convergence"].value("is_mean_over_time", false); }
+
 std::string convergence(const Figures& f, const Json& part, const std::string& path) {
     const Mark mark = mark_of_convergence(part);
     if (mark == Mark::plain) return item(mark, "Convergence", "not watched: the run ended at the deck's duration");
     const std::string verdict = mark == Mark::good ? "settled" : "<b>not settled</b>", change = path + "/convergence/change_percent";
-    const bool is_mean = part["convergence"].value("is_mean_over_time", false);
-    return item(mark, "Convergence", fmt::format("{}; {} last moved by {}", verdict, is_mean ? "a jet has no rest: means over time at the openings" : "openings",
+    return item(mark, "Convergence", fmt::format("{}; {} last moved by {}", verdict, is_mean_over_time(part) ? "a jet has no rest: means over time at the openings" : "openings",
                                                  f.with_unit(change, {"%", 1, 3})));
 }
 
@@ -84,10 +86,10 @@ std::string estimate(const Figures& f, const std::string& lesion) {
     return item(Mark::plain, "3-D against 1-D", text + " of a tree of tubes");
 }
 
-std::string scheme(const Figures& f, const std::string& path) {
+std::string scheme(const Figures& f, const Json& part, const std::string& path) {
     const std::string name = f.text(path + "/scheme");
-    const bool is_in_time = f.has(path + "/time_steps");
-    const char* words = name == "cells"   ? (is_in_time ? "flow in time on the cells of still particles" : "steady flow on the cells of still particles")
+    const char* in_time = is_mean_over_time(part) ? "flow without rest, followed in time on the cells of still particles" : "periodic flow on the cells of still particles";
+    const char* words = name == "cells"   ? (f.has(path + "/time_steps") ? in_time : "steady flow on the cells of still particles")
                         : name == "paper" ? "moving particles, as the reference paper does"
                                           : "moving particles";
     return name.empty() ? "" : item(Mark::plain, "Method", words);
@@ -146,7 +148,7 @@ std::string quality_section(const Results& results) {
         const FlowPart& flow = results.flows[k];
         const Json& part = results.part(flow);
         const std::string items = mass(figures, flow.path) + convergence(figures, part, flow.path) + resolution(figures, part, flow.path) +
-                                  estimate(figures, focus.in_flow[k].value_or("")) + scheme(figures, flow.path) + (k == 0 ? assumptions(flow.deck) : "");
+                                  estimate(figures, focus.in_flow[k].value_or("")) + scheme(figures, part, flow.path) + (k == 0 ? assumptions(flow.deck) : "");
         columns += fmt::format("<div>{}<ul class=\"checks\">{}</ul></div>\n", results.flows.size() > 1 ? "<h3>" + flow.title + "</h3>" : "", items);
     }
     return columns.empty() ? "" : "<section id=\"quality\">\n<h2>How far to trust it</h2>\n<div class=\"columns\">" + columns + "</div>\n</section>\n";
