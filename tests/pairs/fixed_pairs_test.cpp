@@ -130,3 +130,33 @@ TEST(FixedRowsOrder, PutsLengthsSideBySideWithinRunsKindsFirst) {
 }
 
 }   // namespace
+
+TEST(FixedRowsJoined, AreThoseThatAThirdParticleIsNearToOrThatAreNearThemselves) {
+    // Two layers of a lattice, 1.7 spacings apart, and a post that joins them at one place.
+    std::vector<Vec3> x;
+    for (int k = 0; k < 2; ++k)
+        for (int i = 0; i < 7; ++i)
+            for (int j = 0; j < 7; ++j) x.push_back({double(i), double(j), 1.7 * k});
+    x.push_back({0, 0, 0.85});
+    FixedRows rows(x.size());
+    for (std::uint32_t i = 0; i < x.size(); ++i)
+        for (std::uint32_t j = 0; j < x.size(); ++j)
+            if (i != j && norm(x[i] - x[j]) < 2.05) rows[i].push_back(j);
+    const FixedRows kept = joined(rows, x, 1.6);
+    std::size_t across = 0;
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+        const std::set<std::uint32_t> row(kept[i].begin(), kept[i].end());
+        EXPECT_TRUE(std::is_sorted(kept[i].begin(), kept[i].end()));
+        for (const std::uint32_t j : rows[i]) {
+            EXPECT_EQ(row.count(j) == 1, std::count(kept[j].begin(), kept[j].end(), i) == 1) << "one-sided";
+            const bool is_across = x[i].z != x[j].z && i < 98 && j < 98;
+            if (!is_across) {
+                EXPECT_TRUE(row.count(j)) << "within a layer, or of the post";
+            } else if (row.count(j)) {
+                ++across;
+                EXPECT_LT(std::max(std::hypot(x[i].x, x[i].y), std::hypot(x[j].x, x[j].y)), 1.5) << "away from the post";
+            }
+        }
+    }
+    EXPECT_GT(across, 0u) << "the post joins nobody";
+}

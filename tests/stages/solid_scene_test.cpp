@@ -8,6 +8,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/config/deck.h"
+#include "patency/shape/stent_library.h"
 #include "patency/stages/solid_material.h"
 
 using namespace patency;
@@ -41,6 +42,14 @@ TEST(SolidMaterial, TableAndLawsGiveWhatTheySay) {
     EXPECT_NEAR(m.moduli().shear, 40e9, 1);
     // True stress at necking: 485 MPa x 1.4 at ln 1.4.
     EXPECT_NEAR(std::get<J2Plastic>(m.law).hardening.stress(std::log(1.4)), 679e6, 1);
+}
+
+TEST(SolidMaterial, EveryDesignOfTheLibraryIsOfAMetalOfTheTable) {
+    for (const StentDesign& design : stent_library()) {
+        deck::SolidMaterialChoice alloy;
+        alloy.name = design.pattern.alloy;
+        EXPECT_TRUE(std::holds_alternative<J2Plastic>(make_solid_material(alloy, "m").law)) << design.name << ": by contact it could not be implanted";
+    }
 }
 
 TEST(SolidMaterial, WhatIsMissingIsSaid) {

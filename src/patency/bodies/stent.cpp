@@ -7,10 +7,8 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <unordered_map>
 
 #include "patency/base/errors.h"
-#include "patency/bodies/cell_hash.h"
 #include "patency/bodies/relax.h"
 #include "patency/shape/stent_chart.h"
 
@@ -104,37 +102,6 @@ void make_stent_particles(const SignedDistance& metal, double volume, double spa
         particles.position[i] = points.fluid[i];
         particles.volume[i] = volume / double(particles.size());
     }
-}
-
-std::optional<Vec3> find_bridge(const StentParticles& particles, double spacing, double support) {
-    constexpr double near = 1.6;   // spacings: neighbours along axes and diagonals of a lattice
-    const CellHash hash{support};
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
-    for (std::uint32_t i = 0; i < particles.size(); ++i) cells[hash(particles.position[i])].push_back(i);
-    const auto for_each_near = [&](const Vec3& x, auto visit) {
-        const std::int64_t a = hash.index(x.x), b = hash.index(x.y), c = hash.index(x.z);
-        for (std::int64_t k = c - 1; k <= c + 1; ++k)
-            for (std::int64_t j = b - 1; j <= b + 1; ++j)
-                for (std::int64_t i = a - 1; i <= a + 1; ++i)
-                    if (const auto found = cells.find(CellHash::key(i, j, k)); found != cells.end())
-                        for (const std::uint32_t n : found->second) visit(n);
-    };
-    std::vector<std::uint32_t> own, around;
-    for (std::uint32_t i = 0; i < particles.size(); ++i) {
-        const Vec3& x = particles.position[i];
-        own.clear(), around.clear();
-        for_each_near(x, [&](std::uint32_t n) {
-            const double distance = norm(particles.position[n] - x);
-            if (distance <= near * spacing) own.push_back(n);
-            else if (distance < support) around.push_back(n);
-        });
-        for (const std::uint32_t n : around) {
-            const Vec3& y = particles.position[n];
-            if (std::none_of(own.begin(), own.end(), [&](std::uint32_t k) { return norm(particles.position[k] - y) <= near * spacing; }))
-                return 0.5 * (x + y);
-        }
-    }
-    return {};
 }
 
 }   // namespace patency

@@ -2,8 +2,6 @@
 // A stent of particles that fit its struts.
 #pragma once
 
-#include <optional>
-
 #include "patency/particles/particle_set.h"
 #include "patency/shape/stent_metal.h"
 
@@ -26,9 +24,5 @@ void make_stent_particles(const StrutCurves& curves, const StentAxis& axis, doub
 
 /// Particles of any metal of this volume [m^3], by relaxation in space.
 void make_stent_particles(const SignedDistance& metal, double volume, double spacing, StentParticles& particles);
-
-/// A place where particles within `support` [m] of each other are of different struts: no third one is near to both. None if
-/// all neighbours are joined by metal.
-std::optional<Vec3> find_bridge(const StentParticles& particles, double spacing, double support);
 
 }   // namespace patency

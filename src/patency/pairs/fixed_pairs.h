@@ -76,6 +76,23 @@ inline FixedRows reordered(const FixedRows& rows, const std::vector<std::uint32_
     return result;
 }
 
+/// The pairs that material joins: those nearer than `near`, and those with a third particle that near to both. Struts that pass
+/// each other closer than the support are no neighbours. Symmetric, as the rows are.
+template <class Position>
+FixedRows joined(const FixedRows& rows, const Position& x, double near) {
+    const auto are_near = [&](std::uint32_t a, std::uint32_t b) { return norm(x[a] - x[b]) <= near; };
+    FixedRows result(rows.size());
+#pragma omp parallel for schedule(dynamic, 512)
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        std::vector<std::uint32_t> between;
+        for (const std::uint32_t k : rows[i])
+            if (are_near(i, k)) between.push_back(k);
+        for (const std::uint32_t j : rows[i])
+            if (are_near(i, j) || std::any_of(between.begin(), between.end(), [&](std::uint32_t k) { return are_near(j, k); })) result[i].push_back(j);
+    }
+    return result;
+}
+
 template <class T>
 class FixedPairs {
 public:

@@ -28,6 +28,7 @@ struct SolidNumerics {
     double smoothing_ratio = 1.15;   ///< h / dp
     SolidWeights weights = SolidWeights::smooth;
     bool planar = false;             ///< plane strain, z = 0
+    bool across_gaps = true;         ///< whether particles are neighbours that no third one joins
     double cfl = 0.6;                ///< of the P-wave over h
     double hourglass = 1;            ///< stiffness against what no linear deformation explains, over the shear modulus   THEORY (20.6)
     double mass_scaling = 1;         ///< of particles against their neighbours, not of what they do together   THEORY (20.17)

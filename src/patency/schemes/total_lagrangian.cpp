@@ -20,6 +20,8 @@ namespace {
 constexpr double displacement_quanta_per_spacing = 4194304;
 constexpr double largest_fixed = 2.0e9;
 
+constexpr double nearest_neighbours = 1.6;   // spacings: along axes and diagonals of a lattice
+
 constexpr double flattest = 1e-3;   // det of the moment over its mean cubed; 1 in the middle, 0.3 in a corner
 
 /// Hourglass control is as soft as the metal would be at this multiple of its plastic strain. What it bears in a strut that bends
@@ -112,7 +114,8 @@ private:
         p.take(cells.find_order(frame, numerics_.spacing, {p.reference.data(), p.size()}));
         cells.index(frame, numerics_.spacing, {p.reference.data(), p.size()});
         found.find_own(frame, cells, support, native_lanes<T>);
-        const FixedRows rows = rows_by_particle(found, p.size());
+        FixedRows rows = rows_by_particle(found, p.size());
+        if (!numerics_.across_gaps) rows = joined(rows, p.reference, nearest_neighbours * numerics_.spacing);
         const std::vector<std::uint32_t> order = find_order(rows, [&](std::uint32_t i) { return p.material[i]; });
         p.take(order);
         pairs_.make(reordered(rows, order), [&](std::uint32_t i, std::uint32_t j) {

@@ -108,6 +108,11 @@ std::span<const TableMaterial> material_table() {
          metal(8000, 193e9, 0.3, 172e6, 485e6, 0.40)},
         {"L605", "cobalt-chromium alloy, annealed", "ASTM F90, least values: yield 310 MPa, ultimate 860 MPa, elongation 30 %",
          metal(9130, 243e9, 0.3, 310e6, 860e6, 0.30)},
+        {"MP35N", "cobalt-nickel alloy, annealed", "ASTM F562, least values: yield 241 MPa, ultimate 793 MPa, elongation 50 %",
+         metal(8430, 233e9, 0.3, 241e6, 793e6, 0.50)},
+        {"PtCr", "platinum-chromium steel",
+         "O'Brien et al. 2010, Biomaterials 31, 3755: yield 480 MPa, ultimate 834 MPa, elongation 45 %, modulus 203 GPa",
+         metal(9900, 203e9, 0.3, 480e6, 834e6, 0.45)},
         {"copper_bar", "copper of the Taylor bar of the literature", "Camacho & Ortiz 1997, Comput. Methods Appl. Mech. Eng. 142, 269", copper_bar()},
     };
     return table;
