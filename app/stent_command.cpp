@@ -163,7 +163,7 @@ void show(const StentOptions& o) {
     const Shown shown = find_shown(o);
     const StentPattern& p = shown.pattern;
     const Described cut = describe(p), open = describe(at_diameter(p, p.nominal_diameter));
-    const StentAxis axis = make_stent_axis(shown.placement, cut.curves, read_line(o.line));
+    const StentAxis axis = make_stent_axis(shown.placement, p, read_line(o.line));
     print_figures(shown, cut, open);
     if (o.out.empty()) return;
 

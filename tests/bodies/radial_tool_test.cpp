@@ -49,6 +49,24 @@ RadialTool tool(RadialTool::Kind kind, double radius, double how_long = 10e-3) {
 
 }   // namespace
 
+// An artery comes back beside itself: half of the tube lies behind the plane that the line begins at.
+TEST(RadialTool, TakesHoldOfATubeBehindABendOfHalfACircle) {
+    Tube tube;
+    std::vector<Vec3> line;
+    for (double x = 1; x > -12; x -= 0.5) line.push_back(1e-3 * Vec3{x, 16, 0});
+    for (int k = 0; k < 40; ++k) line.push_back(1e-3 * Vec3{-12 - 8 * std::sin(std::numbers::pi * k / 40), 8 + 8 * std::cos(std::numbers::pi * k / 40), 0});
+    double arc = 0;   // of the origin
+    for (double x = -12; x <= 12; x += 0.5) line.push_back(1e-3 * Vec3{x, 0, 0});
+    for (std::size_t k = 1; k < line.size() && !(line[k].y == 0 && line[k].x > 1e-9); ++k) arc += norm(line[k] - line[k - 1]);
+    RadialTool bent = tool(RadialTool::Kind::crimper, without - 0.02e-3);
+    bent.axis = StentAxis(line, arc, 0, 10e-3, without);
+    const auto crimper = make_tool_contact(*tube.surface, bent, {.friction = 0, .damping = 0, .step = step});
+    const auto straight = make_tool_contact(*tube.surface, tool(RadialTool::Kind::crimper, without - 0.02e-3), {.friction = 0, .damping = 0, .step = step});
+    crimper->add_forces(0, step), straight->add_forces(0, step);
+    EXPECT_GT(straight->report().normal_force, 0);
+    EXPECT_NEAR(crimper->report().normal_force, straight->report().normal_force, 1e-6 * straight->report().normal_force);
+}
+
 TEST(RadialTool, ABalloonPushesOutAndACrimperIn) {
     Tube tube;
     const auto balloon = make_tool_contact(*tube.surface, tool(RadialTool::Kind::balloon, within + 0.02e-3), {.friction = 0, .damping = 0, .step = step});

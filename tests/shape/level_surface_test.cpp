@@ -29,7 +29,7 @@ void expect_closed(const Surface& surface) {
 }
 
 Surface sphere(double radius, double cell) {
-    const Field field = [=](const Vec3& x) { return norm(x) - radius; };
+    const LevelField field = [=](const Vec3& x) { return norm(x) - radius; };
     return make_level_surface(field, level_grid_around(grown({{}, {}}, radius + 1.3 * cell), cell), everywhere_crossed);
 }
 
@@ -45,7 +45,7 @@ TEST(LevelSurface, sphereConvergesToSecondOrder) {
 }
 
 TEST(LevelSurface, volumeBeyondTheTrianglesIsFoundToFourthOrder) {
-    const Field field = [](const Vec3& x) { return 2 * (norm(x) - 1); };   // any slope
+    const LevelField field = [](const Vec3& x) { return 2 * (norm(x) - 1); };   // any slope
     for (double cell : {0.2, 0.1}) {
         const Surface s = sphere(1, cell);
         EXPECT_NEAR((volume(s) + volume_beyond(s, field)) / (4 * pi / 3), 1, 0.1 * std::pow(cell, 4));
@@ -54,7 +54,7 @@ TEST(LevelSurface, volumeBeyondTheTrianglesIsFoundToFourthOrder) {
 
 TEST(LevelSurface, boxesThatAreNotCrossedCostNothing) {
     int looks = 0;
-    const Field field = [&](const Vec3& x) {
+    const LevelField field = [&](const Vec3& x) {
 #pragma omp atomic
         ++looks;
         return norm(x) - 1;
@@ -72,7 +72,7 @@ TEST(LevelSurface, boxesThatAreNotCrossedCostNothing) {
 
 // Waves as short as two cells: cells with every pattern of signs, two and more sheets in one.
 TEST(LevelSurface, isClosedWhereSheetsShareCells) {
-    const Field field = [](const Vec3& x) {
+    const LevelField field = [](const Vec3& x) {
         const double inside = std::sin(2.9 * x.x) * std::cos(2.3 * x.y) + std::sin(2.6 * x.y) * std::cos(3.1 * x.z) +
                               std::sin(2.2 * x.z) * std::cos(2.7 * x.x);
         return std::max(inside, norm(x) - 8.3);
@@ -83,7 +83,7 @@ TEST(LevelSurface, isClosedWhereSheetsShareCells) {
 }
 
 TEST(LevelSurface, twoSpheresInOneCellStayApart) {
-    const Field field = [](const Vec3& x) {
+    const LevelField field = [](const Vec3& x) {
         return std::min(norm(x - Vec3{0.9, 0.9, 0.9}) - 1.5, norm(x + Vec3{0.9, 0.9, 0.9}) - 1.5);
     };
     const Surface s = make_level_surface(field, {{-3.5, -3.5, -3.5}, {1, 1, 1}, {7, 7, 7}}, everywhere_crossed);
@@ -119,7 +119,7 @@ TEST(SurfaceCut, capsAreFlatAndTheRestStays) {
 }
 
 TEST(SurfaceCut, spareWhatIsBeyondItsReachAndLength) {
-    const Field field = [](const Vec3& x) { return std::min(norm(x - Vec3{0, 3, 0}), norm(x + Vec3{0, 3, 0})) - 1; };
+    const LevelField field = [](const Vec3& x) { return std::min(norm(x - Vec3{0, 3, 0}), norm(x + Vec3{0, 3, 0})) - 1; };
     const Surface two =
         make_level_surface(field, level_grid_around({{-1.5, -4.5, -1.5}, {1.5, 4.5, 1.5}}, 0.1), everywhere_crossed);
     Surface one_cut = two, both_cut = two, none_cut = two;

@@ -108,6 +108,21 @@ TEST(StentAxis, SightIsThatOfTheCoordinatesWhereverItWasSeenLast) {
     }
 }
 
+// Most of a circle, from where much of the line lies behind the plane that it begins at, or in the normal planes of its first pieces.
+TEST(StentAxis, APlaceThatWasNotSeenYetIsSeenFromNearby) {
+    const double bend = 12e-3;
+    const std::vector<Vec3> line = arc(bend, 4.8 * bend, 240);
+    const StentAxis axis(line, 4 * bend, 0, 15e-3, 1.5e-3);
+    for (double along = -7e-3; along < 7e-3; along += 0.37e-3)
+        for (const double angle : {0.0, 1.9, 3.8}) {
+            const StentPoint p{1.3e-3, angle, along};
+            std::size_t piece = StentAxis::unseen;
+            const StentAxis::Sight s = axis.sight(axis.place(p), piece);
+            ASSERT_NEAR(s.radius, p.radius, 1e-12);
+            ASSERT_NEAR(s.along, p.along, 1e-12);
+        }
+}
+
 TEST(StentAxis, LengthsAlongTheLineAreKeptAndThoseBesideItStretched) {
     const double bend = 8e-3;
     const std::vector<Vec3> line = arc(bend, 20e-3, 400);

@@ -108,7 +108,7 @@ TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
 }
 
 StentPlace place_of(double cut, double crimped, double opened) {
-    StentPlace place{.pattern = {}, .diameter = opened, .crimped_diameter = crimped, .opened_length = 0, .line = 0, .arc = 0, .axis = {}, .reference_diameter = opened, .narrowest = 1e-3};
+    StentPlace place{.pattern = {}, .form = {}, .diameter = opened, .crimped_diameter = crimped, .opened_length = 0, .line = 0, .arc = 0, .axis = {}, .reference_diameter = opened, .narrowest = 1e-3};
     place.pattern.diameter = cut, place.pattern.strut_thickness = 0.1e-3;
     return place;
 }

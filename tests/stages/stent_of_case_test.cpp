@@ -54,15 +54,15 @@ TEST(StentOfCase, APatternIsTheDecks) {
 }
 
 TEST(StentOfCase, PlacementsByTranslationAndAlongALineAgree) {
-    const StrutCurves curves = make_strut_curves(find_stent("paper").pattern);
+    const StentPattern& pattern = find_stent("paper").pattern;
     const std::vector<Vec3> line{{0, 0, 0}, {0, 10e-3, 0}, {0, 30e-3, 0}};
     deck::StentPlacement along, by_translation;
     along.arc_length = 12e-3, along.rotation = 0.7;
     by_translation.translation = Vec3{0, 12e-3, 0}, by_translation.direction = {0, 5, 0}, by_translation.rotation = 0.7;
-    const StentAxis a = make_stent_axis(along, curves, line), b = make_stent_axis(by_translation, curves);
+    const StentAxis a = make_stent_axis(along, pattern, line), b = make_stent_axis(by_translation, pattern);
     for (const StentPoint& p : {StentPoint{1e-3, 0.3, 2e-3}, StentPoint{0.5e-3, -2, -4e-3}})
         EXPECT_LT(norm(a.place(p) - b.place(p)), 1e-15);
-    EXPECT_THROW(make_stent_axis(along, curves), DeckError);
+    EXPECT_THROW(make_stent_axis(along, pattern), DeckError);
 }
 
 }   // namespace

@@ -10,6 +10,7 @@
 #include "patency/bodies/stent.h"
 #include "patency/bodies/stent_skin.h"
 #include "patency/shape/stent_chart.h"
+#include "patency/shape/stent_form.h"
 #include "patency/shape/stent_metal.h"
 
 using namespace patency;
@@ -98,4 +99,44 @@ TEST(StentPart, StrutsDoNotPullEachOtherAcrossAGap) {
     }
     EXPECT_LT(worst, 1e-10);
     EXPECT_GT(at_the_bend, 0.1);
+}
+
+// The ring as a pattern, and the same metal as a file would bring it, along a bent axis.
+TEST(StentPart, OfASurfaceIsAsOfThePatternThatItWasMadeFrom) {
+    const StrutCurves curves = make_strut_curves(ring());
+    const ImportedStent imported = recognise_stent(make_stent_surface(curves, StentAxis(motion_along({0, 0.6, 0.8}, {3 * mm, -1 * mm, 0})), 20 * um));
+    EXPECT_NEAR(least_strut(imported), 100 * um, 10 * um) << "of thickness and width";
+    std::vector<Vec3> arc;
+    for (int k = -20; k <= 20; ++k) arc.push_back(10 * mm * Vec3{std::sin(0.02 * k), 1 - std::cos(0.02 * k), 0});
+    const StentAxis axis(arc, 4 * mm, 0, 1.1 * mm, 1 * mm);
+    const auto part = make_stent_part("stent", imported, axis, steel(), numerics(25 * um)), own = make_stent_part("stent", curves, axis, steel(), numerics(25 * um));
+    const auto mass_of = [](const SolidPart& p) {
+        double mass = 0;
+        for (const double m : p.body->particles().mass) mass += m;
+        return mass;
+    };
+    EXPECT_NEAR(mass_of(*part), mass_of(*own), 0.005 * mass_of(*own));
+    EXPECT_NEAR(double(part->body->particles().size()), double(own->body->particles().size()), 0.05 * double(own->body->particles().size()));
+    const auto faces_of = [](SolidPart& p) {
+        p.surface->follow(p.body->particles());
+        std::array<double, 4> areas{};   // of the faces, and the volume
+        const SurfaceElements& mesh = p.surface->mesh();
+        for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+            const Vec3 &a = p.surface->position[mesh.elements[e][0]], &b = p.surface->position[mesh.elements[e][1]], &c = p.surface->position[mesh.elements[e][2]];
+            areas[mesh.face[e]] += 0.5 * norm(cross(b - a, c - a));
+            areas[3] += dot(a, cross(b, c)) / 6;
+        }
+        return areas;
+    };
+    const auto got = faces_of(*part), wanted = faces_of(*own);
+    EXPECT_NEAR(got[3], wanted[3], 0.05 * wanted[3]) << "edges are cut";
+    for (const std::size_t face : {stent_outer, stent_inner, stent_side}) EXPECT_NEAR(got[face], wanted[face], 0.1 * wanted[face]) << face;
+    const StentShape shape = measure_stent_shape(*part, axis), same = measure_stent_shape(*own, axis);
+    EXPECT_NEAR(shape.outer_diameter, same.outer_diameter, 0.005 * same.outer_diameter);
+    EXPECT_NEAR(shape.length, same.length, 0.01 * same.length);
+}
+
+TEST(StentPart, OfASurfaceTooCoarseIsRefused) {
+    const ImportedStent imported = recognise_stent(make_stent_surface(make_strut_curves(ring()), StentAxis(), 20 * um));
+    EXPECT_THROW(make_stent_part("stent", imported, StentAxis(), steel(), numerics(35 * um)), GeometryError);
 }

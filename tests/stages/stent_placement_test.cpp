@@ -8,7 +8,11 @@
 
 #include "patency/base/errors.h"
 #include "patency/config/deck.h"
+#include "patency/io/surface_file.h"
 #include "patency/shape/exact_distance.h"
+#include "patency/shape/stent_chart.h"
+#include "patency/stages/stent_of_case.h"
+#include "tests/io/scratch_folder.h"
 #include "tests/stages/vessels.h"
 
 namespace patency {
@@ -104,6 +108,23 @@ TEST(StentPlacement, RefusesWhatDoesNotGetThereUnlessABalloonGoesBefore) {
     EXPECT_EQ(refusal([&](deck::Case& c) { wide(c), c.deployment.mode = deck::DeploymentMode::geometric; }), "accepted");
     // Behind the lesion it would have to pass it.
     EXPECT_PRED2(says, refusal([&](deck::Case& c) { wide(c), c.deployment.predilation = 1.8e-3, c.stent->placement = at("left", 11e-3); }), "is too wide to get there");
+}
+
+TEST(StentPlacement, OfAStentThatComesAsASurface) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = folder / "stent.stl";
+    write_surface(file, make_stent_surface(make_strut_curves(make_stent_pattern(*config().stent)), StentAxis(motion_along({0, 0, 1}, {0, 5e-3, 0})), 20e-6));
+    const auto as_surface = [&](deck::Case& c) { c.stent = deck::Stent{}, c.stent->surface = file, c.stent->unit = "mm", c.deployment.crimped_diameter = 1.2e-3; };
+    const StentPlace place = place_stent(config(as_surface), y()), own = place_stent(config(), y());
+    EXPECT_NEAR(place.pattern.length, own.pattern.length, 0.01 * own.pattern.length);
+    EXPECT_NEAR(place.pattern.diameter, own.pattern.diameter, 0.01 * own.pattern.diameter);
+    EXPECT_EQ(place.diameter, place.pattern.diameter) << "opened to what the file shows, where nobody says";
+    EXPECT_EQ(place.arc, own.arc);
+    EXPECT_LT(norm(place.axis.place({0, 0, 1e-3}) - own.axis.place({0, 0, 1e-3})), 1e-6) << "the line is smoothed by the diameter";
+    EXPECT_EQ(place.pattern.alloy, "316L");
+    EXPECT_PRED2(says, refusal([&](deck::Case& c) { as_surface(c), c.deployment.crimped_diameter.reset(); }), std::string("deck: deployment.crimped_diameter: is missing"));
+    EXPECT_PRED2(says, refusal([&](deck::Case& c) { as_surface(c), c.deployment.diameter = 1.1e-3; }), std::string("deck: deployment.diameter: 1.1 mm does not open a stent that is crimped"));
+    EXPECT_PRED2(says, refusal([&](deck::Case& c) { as_surface(c), c.deployment.mode = deck::DeploymentMode::geometric; }), std::string("deck: deployment.mode: geometric opens"));
 }
 
 TEST(StentPlacement, NeedsALesionOrAPlace) {

@@ -15,7 +15,7 @@ namespace {
 class ToolShape {
 public:
     ToolShape(RadialTool tool, std::size_t vertices)
-        : tool_(std::move(tool)), along_(vertices), piece_(vertices), free_(vertices) {}
+        : tool_(std::move(tool)), along_(vertices), piece_(vertices, StentAxis::unseen), free_(vertices) {}
 
     void move(double time, double dt) {
         radius_ = tool_.radius(time);

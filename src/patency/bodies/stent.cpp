@@ -11,6 +11,7 @@
 #include "patency/base/errors.h"
 #include "patency/bodies/relax.h"
 #include "patency/shape/stent_chart.h"
+#include "patency/shape/surface_distance.h"
 
 namespace patency {
 
@@ -64,34 +65,51 @@ std::vector<Vec3> points_in_plane(const StrutCurves& curves, double area, double
     return metal;
 }
 
-}   // namespace
-
-double largest_stent_spacing(const StrutCurves& curves) {
-    double least = curves.thickness;
-    for (const Strut& strut : curves.struts) least = std::min(least, 2 * strut.half_width);
-    return least / least_across;
-}
-
-void make_stent_particles(const StrutCurves& curves, const StentAxis& axis, double spacing, StentParticles& particles) {
-    const double largest = largest_stent_spacing(curves);
+void expect_fine(const StentForm& form, double spacing) {
+    const double largest = largest_stent_spacing(form);
     if (!(spacing > 0) || spacing > largest * (1 + 1e-9))
         throw GeometryError(fmt::format(
             "A spacing of {:.3g} um does not put {} particles across the stent's struts: at most {:.3g} um.",
             1e6 * spacing, least_across, 1e6 * largest));
+}
+
+/// Places a straight stent's particles along the axis; volumes [m^3] are those of the metal there and add up to `volume`.
+void bend(const std::vector<StentPoint>& points, const StentAxis& axis, double volume, bool grows_outwards, StentParticles& particles) {
+    particles.resize(points.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        particles.position[i] = axis.place(points[i]);
+        particles.volume[i] = (grows_outwards ? points[i].radius : 1) * axis.stretch(points[i]);
+        sum += particles.volume[i];
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) particles.volume[i] *= volume / sum;
+}
+
+}   // namespace
+
+double largest_stent_spacing(const StentForm& form) { return least_strut(form) / least_across; }
+
+void make_stent_particles(const StrutCurves& curves, const StentAxis& axis, double spacing, StentParticles& particles) {
+    expect_fine(curves, spacing);
     const StentMeasures measures = measure_stent(curves);
     const std::vector<Vec3> plane = points_in_plane(curves, measures.plan_area, spacing);
     const std::size_t layers = std::size_t(std::max(double(least_across), std::round(curves.thickness / spacing)));
-    particles.resize(plane.size() * layers);
-    double sum = 0;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
+    std::vector<StentPoint> points(plane.size() * layers);
+    for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3& flat = plane[i / layers];
         const double over = ((double(i % layers) + 0.5) / double(layers) - 0.5) * curves.thickness;
-        const StentPoint at{curves.middle_radius + over, flat.x / curves.middle_radius, flat.y};
-        particles.position[i] = axis.place(at);
-        particles.volume[i] = at.radius * axis.stretch(at);
-        sum += particles.volume[i];
+        points[i] = {curves.middle_radius + over, flat.x / curves.middle_radius, flat.y};
     }
-    for (std::size_t i = 0; i < particles.size(); ++i) particles.volume[i] *= measures.volume / sum;
+    bend(points, axis, measures.volume, true, particles);   // unrolled, all are as large
+}
+
+void make_stent_particles(const ImportedStent& stent, const StentAxis& axis, double spacing, StentParticles& particles) {
+    expect_fine(stent, spacing);
+    StentParticles straight;
+    make_stent_particles(make_surface_distance(stent.surface, spacing), stent.volume, spacing, straight);
+    std::vector<StentPoint> points;
+    for (const Vec3& x : straight.position) points.push_back({std::hypot(x.y, x.z), std::atan2(x.z, x.y), x.x});
+    bend(points, axis, stent.volume, false, particles);
 }
 
 void make_stent_particles(const SignedDistance& metal, double volume, double spacing, StentParticles& particles) {

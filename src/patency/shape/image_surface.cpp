@@ -154,7 +154,7 @@ Surface level_surface(const Image& image, const Region& region, const Lattice3& 
         return false;
     };
     const auto cells = [&](int k) { return int((lattice.size[k] - 1 + 2 * beyond) / cell); };
-    const Field field = [&](const Vec3& x) { return interpolated(lattice, x); };
+    const LevelField field = [&](const Vec3& x) { return interpolated(lattice, x); };
     Surface surface = make_level_surface(
         field, {{-beyond, -beyond, -beyond}, {cell, cell, cell}, {cells(0), cells(1), cells(2)}}, may_cross);
     if (wanted_volume) {

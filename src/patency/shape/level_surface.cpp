@@ -67,7 +67,7 @@ struct CrossedCell {
 
 class Mesher {
 public:
-    Mesher(const Field& field, const LevelGrid& grid, const std::function<bool(const Bounds&)>& may_cross)
+    Mesher(const LevelField& field, const LevelGrid& grid, const std::function<bool(const Bounds&)>& may_cross)
         : field_(field),
           grid_(grid),
           may_cross_(may_cross),
@@ -212,7 +212,7 @@ private:
         return ((std::int64_t(at[2]) + 1) * (grid_.cells[1] + 2) + at[1] + 1) * (grid_.cells[0] + 2) + at[0] + 1;
     }
 
-    const Field& field_;
+    const LevelField& field_;
     const LevelGrid grid_;
     const std::function<bool(const Bounds&)>& may_cross_;
     const double step_;
@@ -225,7 +225,7 @@ private:
 
 }   // namespace
 
-Vec3 gradient(const Field& field, const Vec3& x, double step) {
+Vec3 gradient(const LevelField& field, const Vec3& x, double step) {
     const auto slope = [&](const Vec3& e) { return (field(x + step * e) - field(x - step * e)) / (2 * step); };
     return {slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
 }
@@ -242,12 +242,12 @@ LevelGrid level_grid_around(const Bounds& box, double cell) {
             {count(box.low.x, box.high.x), count(box.low.y, box.high.y), count(box.low.z, box.high.z)}};
 }
 
-Surface make_level_surface(const Field& field, const LevelGrid& grid,
+Surface make_level_surface(const LevelField& field, const LevelGrid& grid,
                            const std::function<bool(const Bounds&)>& may_cross) {
     return Mesher(field, grid, may_cross).mesh();
 }
 
-double volume_beyond(const Surface& surface, const Field& field) {
+double volume_beyond(const Surface& surface, const LevelField& field) {
     return sum_of(surface.triangles.size(), [&](std::size_t k) {
         const Triangle& t = surface.triangles[k];
         double missing = 0;

@@ -147,6 +147,7 @@ StentAxis::Sight StentAxis::sight(const Vec3& x, std::size_t& piece) const {
         return from(norm(away), away, end.tangent, end.along + past);
     };
     constexpr int pieces_walked = 4;
+    if (piece == unseen) piece = piece_at(coordinates(x).along);
     for (int k = 0; k < 2 * pieces_walked; ++k) {
         if (k == pieces_walked) piece = piece_at(coordinates(x).along);   // it came from far away
         const double part = foot_on(piece, x);

@@ -40,8 +40,10 @@ public:
         double radius, along;    ///< as of coordinates
         Vec3 outward, tangent;   ///< unit
     };
-    /// Fast for a place that moves little: `piece` of the axis, from 0, is where it was seen last, and then where it is now. A place on
-    /// the axis is seen along no direction.
+    /// Fast for a place that moves little: `piece` of the axis, from 0, is where it was seen last, or `unseen`, and then where it is now.
+    /// One that is elsewhere on an axis that bends far may be seen from a piece whose normal plane it lies in by chance. A place on the axis
+    /// is seen along no direction.
+    static constexpr std::size_t unseen = std::size_t(-1);
     Sight sight(const Vec3& x, std::size_t& piece) const;
     Vec3 outward(const StentPoint& p) const;   ///< unit, away from the axis
     Vec3 tangent(const StentPoint& p) const;   ///< unit, along the axis

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "patency/bodies/stent.h"
-#include "patency/shape/stent_chart.h"
 #include "patency/shape/wall_thickness.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_scene.h"
@@ -24,14 +23,13 @@ DeployPlan plan_deploy(const deck::Case& config, int threads) {
     DeployPlan plan{.place = place_stent(config, vessel)};
     const StentPlace& place = plan.place;
     if (config.deployment.mode == deck::DeploymentMode::geometric) return plan;
-    const StrutCurves curves = make_strut_curves(place.pattern);
     const double thickness = config.wall.thickness.value_or(coronary_wall_thickness(place.reference_diameter));
     plan.wall_spacing = config.wall.spacing.value_or(usual_wall_spacing(thickness));
-    plan.stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(curves));
+    plan.stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(place.form));
     const auto cube = [](double x) { return x * x * x; };
     const double inner = place.reference_diameter / 2, outer = inner + thickness, length = (1 + 2 * config.deployment.region) * place.pattern.length;
     plan.wall_particles = std::numbers::pi * (outer * outer - inner * inner) * length / cube(plan.wall_spacing);
-    plan.stent_particles = measure_stent(curves).volume / cube(plan.stent_spacing);
+    plan.stent_particles = metal_volume(place.form) / cube(plan.stent_spacing);
     plan.mass_scaling = stent_mass_scaling(config, place.pattern, plan.stent_spacing);
     const double ramps = make_deploy_program(place, config.deployment).end() / config.deployment.ramp;
     plan.steps = ramps * config.deployment.steps;

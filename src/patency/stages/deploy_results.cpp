@@ -41,7 +41,10 @@ std::vector<StentPoint> seen_from(const StentAxis& axis, const std::vector<Vec3>
     return points;
 }
 
-int slices_for(const StentPattern& pattern) { return std::max(3, pattern.rings); }
+int slices_for(const StentPattern& pattern) {
+    const int rings = pattern.rings > 0 ? pattern.rings : int(std::lround(2 * pattern.length / pattern.diameter));   // of a surface: as many as its cells might be round
+    return std::max(3, rings);
+}
 
 LumenGain lumen_gain(const StentPlace& place, const VesselAlong& before, const Vessel& after) {
     const VesselAlong& along = after.along.value();

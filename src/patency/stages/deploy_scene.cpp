@@ -133,15 +133,14 @@ std::unique_ptr<DeployScene> build_deployment(const deck::Case& config) {
     scene->solids.config = config;
     scene->vessel = read_vessel(config, network_resolution(config));
     scene->place = place_stent(config, scene->vessel);
-    scene->curves = make_strut_curves(scene->place.pattern);
     scene->field = field_around(config, scene->vessel, scene->place);
     scene->wall_spacing = config.wall.spacing.value_or(usual_wall_spacing(scene->field->thinnest()));
-    scene->stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(scene->curves));
+    scene->stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(scene->place.form));
 
     const SolidMaterial metal = stent_material(*config.stent, scene->place.pattern);
     const SolidNumerics numerics = stent_numerics(config, scene->stent_spacing);
     scene->mass_scaling = stent_mass_scaling(config, scene->place.pattern, scene->stent_spacing);
-    scene->stent = make_stent_part("stent", scene->curves, scene->place.axis, metal, numerics, scene->mass_scaling);
+    scene->stent = make_stent_part("stent", scene->place.form, scene->place.axis, metal, numerics, scene->mass_scaling);
     scene->wall = make_wall_part(*scene);
     carry_lumen(*scene);
     return scene;

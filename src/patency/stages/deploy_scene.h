@@ -16,7 +16,6 @@ struct DeployScene {
     deck::Case config;
     Vessel vessel;
     StentPlace place;
-    StrutCurves curves;                            ///< as cut
     std::optional<WallField> field;
     double wall_spacing = 0, stent_spacing = 0;    ///< [m]
     double mass_scaling = 1;                       ///< of the stent

@@ -66,7 +66,7 @@ Json materials_summary(const deck::Case& config) {
     materials.push_back(solid_summary(wall.layers.adventitia_share > 0 ? "media" : "wall", wall.layers.media.value_or(usual), "wall.layers.media"));
     if (wall.layers.adventitia_share > 0) materials.push_back(solid_summary("adventitia", wall.layers.adventitia.value_or(usual), "wall.layers.adventitia"));
     deck::SolidMaterialChoice alloy;
-    if (!config.stent->material) alloy.name = make_stent_pattern(*config.stent).alloy;
+    if (!config.stent->material) alloy.name = alloy_of(*config.stent);
     materials.push_back(solid_summary("stent", config.stent->material.value_or(alloy), "stent.material"));
     return materials;
 }

@@ -129,12 +129,12 @@ std::function<double(double)> make_pressure(const deck::FacePressure& said) {
     };
 }
 
-std::unique_ptr<SolidPart> make_stent(const deck::Case& config, const deck::SolidDeck& said, const std::string& path, SolidNumerics numerics) {
+std::unique_ptr<SolidPart> make_stent_solid(const deck::Case& config, const deck::SolidDeck& said, const std::string& path, SolidNumerics numerics) {
     const deck::Stent& stent = *config.stent;
-    const StrutCurves curves = make_strut_curves(make_stent_pattern(stent));
-    const StentAxis axis = stent.placement ? make_stent_axis(*stent.placement, curves) : StentAxis();
-    numerics.spacing = said.spacing ? *said.spacing : stent.spacing.value_or(largest_stent_spacing(curves));
-    auto part = make_stent_part(said.name, curves, axis, make_solid_material(said.material, path + ".material"), numerics, said.mass_scaling);
+    const MadeStent made = make_stent(stent);
+    const StentAxis axis = stent.placement ? make_stent_axis(*stent.placement, made.pattern) : StentAxis();
+    numerics.spacing = said.spacing ? *said.spacing : stent.spacing.value_or(largest_stent_spacing(made.form));
+    auto part = make_stent_part(said.name, made.form, axis, make_solid_material(said.material, path + ".material"), numerics, said.mass_scaling);
     for (Vec3& v : part->solid.particles.velocity) v = said.velocity;
     return part;
 }
@@ -143,7 +143,7 @@ std::unique_ptr<SolidPart> make_part(const deck::Case& config, std::size_t index
     const deck::SolidDeck& said = config.solids[index];
     const std::string path = "solids." + std::to_string(index);
     const SolidNumerics numerics = make_solid_numerics(config, said);
-    if (said.shape.type == deck::SolidShapeType::stent) return make_stent(config, said, path, numerics);
+    if (said.shape.type == deck::SolidShapeType::stent) return make_stent_solid(config, said, path, numerics);
     const SolidFill fill = fill_shape(said.shape, numerics.spacing, numerics.planar, path);
     auto part = std::make_unique<SolidPart>();
     part->name = said.name;

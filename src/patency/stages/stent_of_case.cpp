@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "patency/base/errors.h"
+#include "patency/io/surface_file.h"
 #include "patency/shape/stent_library.h"
-#include "patency/shape/stent_metal.h"
 
 namespace patency {
 
@@ -43,7 +43,27 @@ StentPattern make_stent_pattern(const deck::Stent& stent) {
     return pattern;
 }
 
-StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves,
+std::string alloy_of(const deck::Stent& stent) {
+    if (!stent.surface) return make_stent_pattern(stent).alloy;
+    return find_alloy(stent.alloy.value_or("316L")).name;
+}
+
+MadeStent make_stent(const deck::Stent& stent) {
+    if (!stent.surface) {
+        StentPattern pattern = make_stent_pattern(stent);
+        StentForm form = make_strut_curves(pattern);
+        return {std::move(pattern), std::move(form)};
+    }
+    ImportedStent metal = recognise_stent(read_surface(*stent.surface, stent.unit.value_or("")));
+    StentPattern measured;
+    measured.length = metal.length;
+    measured.diameter = measured.nominal_diameter = metal.diameter;
+    measured.strut_thickness = metal.strut_thickness, measured.strut_width = least_strut(metal);
+    measured.alloy = alloy_of(stent);
+    return {std::move(measured), std::move(metal)};
+}
+
+StentAxis make_stent_axis(const deck::StentPlacement& placement, const StentPattern& pattern,
                           std::span<const Vec3> line) {
     if (placement.translation) {
         const double c = std::cos(placement.rotation), s = std::sin(placement.rotation);
@@ -52,7 +72,7 @@ StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurv
     }
     if (!placement.arc_length || line.empty())
         throw DeckError("stent.placement: the centreline is not known; give a translation");
-    return StentAxis(line, *placement.arc_length, placement.rotation, curves.length, outer_radius(curves));
+    return StentAxis(line, *placement.arc_length, placement.rotation, pattern.length, pattern.diameter / 2);
 }
 
 }   // namespace patency

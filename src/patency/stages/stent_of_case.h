@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The deck's stent as a pattern and an axis.
+// The deck's stent as it was made, and its axis.
 #pragma once
 
 #include <span>
 
 #include "patency/config/case.h"
 #include "patency/shape/stent_axis.h"
-#include "patency/shape/stent_pattern.h"
+#include "patency/shape/stent_form.h"
 
 namespace patency {
 
@@ -14,9 +14,21 @@ namespace patency {
 /// DeckError if the stent is a surface, GeometryError for an unknown design or alloy.
 StentPattern make_stent_pattern(const deck::Stent& stent);
 
-/// Where the stent lies: `line` is the centreline of placement.branch [m], needed if it lies at an arc length. Throws
+/// What the stent is of: the deck's alloy, the design's, or 316L. Throws as make_stent_pattern.
+std::string alloy_of(const deck::Stent& stent);
+
+/// A stent as it was made.
+struct MadeStent {
+    StentPattern pattern;   ///< of a surface what can be measured of it: length, diameters, thickness, alloy; no rings
+    StentForm form;
+};
+/// A pattern as make_stent_pattern has it, or a surface, of alloy_of. Throws as that does, FileError and, for
+/// a surface that is no stent, GeometryError.
+MadeStent make_stent(const deck::Stent& stent);
+
+/// Where a stent of this length and outer diameter lies: `line` is the centreline of placement.branch [m], needed if it lies at an arc length. Throws
 /// DeckError without it, GeometryError if the stent does not lie on it (StentAxis).
-StentAxis make_stent_axis(const deck::StentPlacement& placement, const StrutCurves& curves,
+StentAxis make_stent_axis(const deck::StentPlacement& placement, const StentPattern& pattern,
                           std::span<const Vec3> line = {});
 
 }   // namespace patency

@@ -16,14 +16,14 @@ constexpr double spacings_per_element = 4.0 / 3;
 
 }   // namespace
 
-std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StrutCurves& curves, const StentAxis& axis, const SolidMaterial& material,
+std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis, const SolidMaterial& material,
                                            const SolidNumerics& numerics, double mass_scaling) {
     SolidNumerics driven = numerics;   // a stent goes where tools and walls take it
     driven.weights = SolidWeights::steep;
     driven.across_gaps = false;   // struts pass each other closely, and meet connectors at sharp angles
     driven.mass_scaling = stent_particle_mass_scaling;
     StentParticles metal;
-    make_stent_particles(curves, axis, numerics.spacing, metal);
+    std::visit([&](const auto& f) { make_stent_particles(f, axis, numerics.spacing, metal); }, form);
     auto part = std::make_unique<SolidPart>();
     part->name = name;
     part->mass_scaling = mass_scaling;
@@ -36,7 +36,7 @@ std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StrutC
         solid.particles.mass[i] = solid.materials[0].density * metal.volume[i];
     }
     part->body = make_solid_body(solid, driven);
-    part->surface = std::make_unique<SolidSurface>(make_stent_skin(curves, axis, spacings_per_element * numerics.spacing), solid.particles,
+    part->surface = std::make_unique<SolidSurface>(make_stent_skin(form, axis, spacings_per_element * numerics.spacing), solid.particles,
                                                    numerics.kernel().support(), false);
     return part;
 }

@@ -7,7 +7,7 @@
 
 #include "patency/schemes/solid_step.h"
 #include "patency/shape/stent_axis.h"
-#include "patency/shape/stent_pattern.h"
+#include "patency/shape/stent_form.h"
 
 namespace patency {
 
@@ -17,11 +17,10 @@ inline constexpr double stent_particle_mass_scaling = 16;
 /// Smoothing length over spacing that resolves bending best with four particles across.
 inline constexpr double stent_smoothing_ratio = 1.0;
 
-/// The stent as it was cut, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
+/// The stent as it was made, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
 /// every strut (largest_stent_spacing); mass_scaling multiplies the material's density. Its surface has the faces outer,
-/// inner and side (stent_skin.h). Throws GeometryError: too coarse, or struts so near that particles would reach across the
-/// gap between them.
-std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StrutCurves& curves, const StentAxis& axis, const SolidMaterial& material,
+/// inner and side (stent_skin.h). Throws GeometryError if that is too coarse.
+std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis, const SolidMaterial& material,
                                            const SolidNumerics& numerics, double mass_scaling = 1);
 
 /// The means of a stent, or of any tube around the axis, as it is now.

@@ -63,9 +63,14 @@ Middle middle_of(const deck::Stent& stent, const VesselAlong& along) {
 }
 
 void expect_diameters(const StentPlace& place, const deck::Deployment& deployment) {
-    if (!(place.diameter > place.pattern.diameter))
+    if (!(place.crimped_diameter > 0))
+        throw DeckError("deployment.crimped_diameter: is missing; a stent that comes as a surface does not say what it is crimped to");
+    const bool has_pattern = std::holds_alternative<StrutCurves>(place.form);   // a surface shows a stent that may be open already
+    if (has_pattern && !(place.diameter > place.pattern.diameter))
         throw DeckError(fmt::format("deployment.diameter: {:.4g} mm does not open a stent that was cut at {:.4g} mm; give a larger one", 1e3 * place.diameter,
                                     1e3 * place.pattern.diameter));
+    if (!(place.diameter > place.crimped_diameter))
+        throw DeckError(fmt::format("deployment.diameter: {:.4g} mm does not open a stent that is crimped to {:.4g} mm", 1e3 * place.diameter, 1e3 * place.crimped_diameter));
     if (place.crimped_diameter > place.pattern.diameter)
         throw DeckError(fmt::format("deployment.crimped_diameter: {:.4g} mm is more than the {:.4g} mm at which the stent was cut: crimping makes it smaller",
                                     1e3 * place.crimped_diameter, 1e3 * place.pattern.diameter));
@@ -141,19 +146,22 @@ StentPlace place_stent(const deck::Case& config, const Vessel& vessel) {
     if (!config.stent) throw DeckError("stent: is missing; name one, for instance {design: open_cell}");
     const deck::Stent& stent = *config.stent;
     const VesselAlong& along = vessel.along.value();
-    StentPlace place{.pattern = make_stent_pattern(stent), .diameter = 0, .crimped_diameter = 0, .opened_length = 0, .line = 0, .arc = 0, .axis = {},
+    MadeStent made = make_stent(stent);
+    if (stent.surface && config.deployment.mode == deck::DeploymentMode::geometric)
+        throw DeckError("deployment.mode: geometric opens the struts of a design or a pattern; how those of stent.surface move only mechanics can say: balloon or radial_load");
+    StentPlace place{.pattern = std::move(made.pattern), .form = std::move(made.form), .diameter = 0, .crimped_diameter = 0, .opened_length = 0, .line = 0, .arc = 0, .axis = {},
                      .reference_diameter = 0, .narrowest = Bounds::infinity};
     place.diameter = config.deployment.diameter.value_or(place.pattern.nominal_diameter);
     place.crimped_diameter = config.deployment.crimped_diameter.value_or(place.pattern.crimped_diameter);
     expect_diameters(place, config.deployment);
-    place.opened_length = at_diameter(place.pattern, place.diameter).length;
+    place.opened_length = stent.surface ? place.pattern.length : at_diameter(place.pattern, place.diameter).length;
 
     const Middle middle = middle_of(stent, along);
     const Centreline& line = along.lines.lines[middle.line];
     place.line = middle.line, place.arc = middle.arc;
     expect_room_before_openings(place, line, vessel.openings.front().opening.name);
     if (stent.placement && stent.placement->translation) {
-        place.axis = make_stent_axis(*stent.placement, make_strut_curves(place.pattern));
+        place.axis = make_stent_axis(*stent.placement, place.pattern);
     } else {
         const std::vector<Vec3> smooth = smoothed_line(line, 0.5 * place.diameter);
         double before = 0;   // the smoothed line is a little shorter
@@ -166,7 +174,7 @@ StentPlace place_stent(const deck::Case& config, const Vessel& vessel) {
     place.reference_diameter = 0.5 * (value_at(line, healthy, place.start_arc()) + value_at(line, healthy, place.end_arc()));
     expect_inside(place, vessel);
     if (config.deployment.mode == deck::DeploymentMode::geometric) return place;
-    at_diameter(place.pattern, place.crimped_diameter);   // its struts must have room
+    if (!stent.surface) at_diameter(place.pattern, place.crimped_diameter);   // its struts must have room
     expect_passage(place, line, config.deployment);
     return place;
 }

@@ -6,16 +6,17 @@
 
 #include "patency/config/case.h"
 #include "patency/shape/stent_axis.h"
-#include "patency/shape/stent_pattern.h"
+#include "patency/shape/stent_form.h"
 #include "patency/stages/vessel.h"
 
 namespace patency {
 
 struct StentPlace {
-    StentPattern pattern;      ///< as cut
+    StentPattern pattern;      ///< as it was made (MadeStent)
+    StentForm form;            ///< in the stent's own frame
     double diameter;           ///< that it is opened to, outside [m]
     double crimped_diameter;   ///< [m]
-    double opened_length;      ///< by kinematics (at_diameter) [m]
+    double opened_length;      ///< by kinematics (at_diameter), of a surface as long as it is [m]
     std::size_t line;          ///< the centreline that it lies along, in VesselAlong::lines
     double arc;                ///< of its middle along that line, from the inlet [m]
     StentAxis axis;            ///< through it; angle and place along as in the stent's own frame
