@@ -116,7 +116,7 @@ void add_verify_command(CLI::App& program, ExitCode& exit_code) {
     command->add_option("--set", o->settings, "KEY=VALUE over every deck")->take_all();
     command->add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
     command->add_option("--reference", o->reference, "Folder of stored results of other programs");
-    command->add_option("--report", o->report, "Write the document of the results in the folder, and run nothing");
+    command->add_option("--report", o->report, "Write the document of the results in the folder and of those written before, and run nothing");
     command->add_option("--run", o->run, "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
     command->add_flag("--fresh", o->fresh, "Do all runs again");
     command->add_flag("--list", o->is_listing, "List the cases");

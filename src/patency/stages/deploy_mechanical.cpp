@@ -288,9 +288,18 @@ private:
         write(*wall_series_, wall_picture(*wall_), "wall");
     }
 
+    /// A crimper that left a part of the stent behind has lost it.
+    void expect_crimped() const {
+        const double wanted = scene_->place.crimped_diameter, allowed = wanted + scene_->place.pattern.strut_thickness;
+        if (profile_.most_diameter > allowed)
+            throw DivergedError(fmt::format("the crimper lost a part of the stent, which is up to {:.4g} mm wide where {:.4g} mm were wanted (stent.pvd shows where): "
+                                            "crimp it less, or give deployment.steps more", 1e3 * profile_.most_diameter, 1e3 * wanted));
+    }
+
     void end(DeployPhase phase) {
         say(fmt::format("{} done at {:.4g} ms: diameter {:.4g} mm ({:.4g} to {:.4g}), length {:.4g} mm; {} steps, {:.0f} s", name_of(phase), 1e3 * time(),
                         1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter, 1e3 * profile_.length, scene_->solids.steps, watch_.wall()));
+        if (phase == DeployPhase::crimp) expect_crimped();
         if (phase <= DeployPhase::enter || marks_.crimped_length == 0) {
             if (phase != DeployPhase::open) marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
         }

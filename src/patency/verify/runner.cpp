@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/verify/runner.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -60,6 +62,7 @@ public:
         CaseReport report{.name = case_.name, .level = request_.level, .particles = 0, .figures = {}};
         nlohmann::ordered_json timing;
         timing["name"] = case_.name;
+        timing["date"] = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
         timing["cpu_s"] = timing["wall_s"] = 0.0;
         for (const auto& [name, run] : runs) {
             report.particles = std::max(report.particles, run.particles);

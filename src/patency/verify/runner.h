@@ -37,8 +37,8 @@ struct VerifyRequest {
 /// with ExitCode::interrupted if asked to stop.
 std::vector<CaseReport> run_verification(const VerifyRequest& request);
 
-/// docs/VERIFICATION.md from the reports in a folder: tables, times and pictures (copied beside it, into `verification/`), and
-/// the reference paper's tables; `run`: the folder of a run that stands beside its table VI, or empty.
+/// docs/VERIFICATION.md: tables, times, pictures and the reference paper's tables, from the reports that lie beside it in `verification/`;
+/// those in the folder `out` are put there first. `run`: the folder of a run that stands beside the paper's table VI, or empty: the last one.
 /// @throws FileError.
 void write_verification_report(const std::filesystem::path& out, const std::filesystem::path& document, const std::filesystem::path& run);
 
