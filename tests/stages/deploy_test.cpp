@@ -8,12 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "patency/config/deck.h"
+#include "patency/io/atomic_file.h"
 #include "patency/io/checkpoint.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/lumen_after.h"
 #include "patency/stages/vessel.h"
+#include "tests/io/scratch_folder.h"
 #include "tests/stages/results_folder.h"
 
 namespace patency {
@@ -64,12 +66,31 @@ struct Traces {
     std::vector<double> known;   // of the past, for the results at the end
 };
 
+/// A straight artery of 3.3 mm with a lesion of 45 %, and a stent of one ring.
+deck::Case small_deployment(const std::filesystem::path& folder) {
+    nlohmann::json points;
+    for (int k = 0; k <= 120; ++k) points.push_back({-2 + 0.2 * k, 0, 0, 1.65});
+    const auto end = [](double x, double out) { return nlohmann::json{{"point", {x, 0, 0}}, {"outward_normal", {out, 0, 0}}, {"radius", 1.65}}; };
+    write_file(folder / "artery.json", nlohmann::json{{"unit", "mm"}, {"blend_width_k", 0.35}, {"tubes", {{{"name", "artery"}, {"points", points}}}},
+                                                      {"ends", {{"inlet", end(0, -1)}, {"outlet", end(20, 1)}}}}.dump());
+    write_file(folder / "case.yaml", R"(version: 1
+case: {name: ring}
+geometry: {network: artery.json, lesion: {branch: artery, position: 10 mm, length: 6 mm, diameter_stenosis_percent: 45}}
+blood: {density: 1060 kg/m^3, viscosity: 3.5 mPa s}
+openings: {inlet: {type: velocity, velocity: 0.2 m/s}, outlet: {type: pressure, pressure: 0 Pa}}
+wall: {spacing: 0.25 mm, plaque: fills}
+stent: {pattern: {rings: 1, crowns: 6, length: 1.2 mm, diameter: 2 mm, crimped_diameter: 1.8 mm, nominal_diameter: 3.3 mm, strut_width: 0.1 mm,
+                  strut_thickness: 0.1 mm, crown_radius: 0.15 mm, gap: 0.2 mm, connectors: 3}}
+deployment: {mode: balloon, crimped_diameter: 1.8 mm, steps: 900, frames: 4}
+numerics: {scheme: cells, across: 12, duration: 1 s}
+)");
+    return deck::read_case(folder / "case.yaml");
+}
+
 /// Of a deployment by contact that is stopped after each of these numbers of steps and goes on.
 Traces traces_of(const std::vector<int>& stops) {
-    const deck::Case config = deck::read_case(
-        bifurcation, {"wall={spacing: 0.25 mm, plaque: fills}", "deployment={diameter: 3.3 mm, crimped_diameter: 1.8 mm, steps: 1200, frames: 4}",
-                      "stent={pattern: {rings: 1, crowns: 6, length: 1.2 mm, diameter: 2 mm, crimped_diameter: 1.8 mm, nominal_diameter: 3.3 mm, strut_width: 0.1 mm, "
-                      "strut_thickness: 0.1 mm, crown_radius: 0.15 mm, gap: 0.2 mm, connectors: 3}}"});
+    const ScratchFolder inputs;
+    const deck::Case config = small_deployment(inputs.path());
     const Folder out;
     const OutputFolder folder(out.path);
     for (const int stop : stops) {
@@ -81,11 +102,14 @@ Traces traces_of(const std::vector<int>& stops) {
 }
 
 TEST(DeployByContact, GoesOnWithTheSameBits) {
-    const Traces at_once = traces_of({340}), in_parts = traces_of({30, 210, 100});   // at a row, while it is crimped, while it is let go
+    const Traces at_once = traces_of({430}), in_parts = traces_of({190, 220, 20});   // while it is let go, while the balloon opens it against the wall
     EXPECT_GT(std::count(at_once.table.begin(), at_once.table.end(), '\n'), 50);
     EXPECT_EQ(at_once.table, in_parts.table);
     EXPECT_GT(std::count_if(at_once.known.begin(), at_once.known.end(), [](double x) { return x != 0; }), 0);
     EXPECT_EQ(at_once.known, in_parts.known);
+    constexpr std::size_t touched = 4, deepest = 8;
+    EXPECT_GT(at_once.known.at(touched), 0);
+    EXPECT_GT(at_once.known.at(deepest), 0);
 }
 
 TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
