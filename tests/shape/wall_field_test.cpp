@@ -98,6 +98,11 @@ TEST(WallField, IsWholeAtABifurcation) {
     const WallField wall(y, healthy, {{-1, 0, 0}, normalized(up - Vec3{12e-3, 0, 0}), normalized(down - Vec3{12e-3, 0, 0})}, lumen,
                          {.line = 0, .from = 5e-3, .to = 9e-3, .reach = 2.5e-3});
     ASSERT_EQ(wall.ends().size(), 3u);
+    // A plane just behind it would cut where the walls of both branches are one.
+    const WallField behind(y, healthy, {{-1, 0, 0}, normalized(up - Vec3{12e-3, 0, 0}), normalized(down - Vec3{12e-3, 0, 0})}, lumen,
+                           {.line = 0, .from = 18e-3, .to = 20e-3, .reach = 3e-3});
+    EXPECT_EQ(behind.ends().size(), 3u);
+    EXPECT_LT(behind.value(Vec3{12e-3, R + 0.3e-3, 0}), 0);
     // On the outer side of both branches the wall is there, in the crotch it is, and nothing of it stands in the blood.
     const double t = coronary_wall_thickness(2.4e-3);
     for (const Vec3& end : {up, down}) {

@@ -36,13 +36,20 @@ private:
         return k < shared ? to_stretch(arc) : to_stretch(parting) + arc - parting;
     }
 
-    /// A bifurcation is cut by no plane, nor is its crotch: what reaches into one has all of it and a diameter more. Whether something came in.
+    /// A bifurcation is cut by no plane, nor is its crotch, where the walls of two branches are one: what comes within a diameter of one has all
+    /// of it and a diameter more. Whether something came in.
     bool take_bifurcations() {
         std::vector<char> reached;
         const auto bifurcation = [&](std::size_t j, std::size_t k) { return lines_.bifurcation_ids[j][k]; };
+        const auto is_near = [&](std::size_t j, std::size_t k) {
+            const auto& points = lines_.lines[j].points;
+            for (std::size_t m = 0; m < points.size(); ++m)
+                if (has_[j][m] && std::abs(points[m].arc - points[k].arc) <= 2 * points[k].radius) return true;
+            return false;
+        };
         for (std::size_t j = 0; j < has_.size(); ++j)
             for (std::size_t k = 0; k < has_[j].size(); ++k)
-                if (const int b = bifurcation(j, k); b >= 0 && has_[j][k]) {
+                if (const int b = bifurcation(j, k); b >= 0 && is_near(j, k)) {
                     if (reached.size() <= std::size_t(b)) reached.resize(std::size_t(b) + 1);
                     reached[std::size_t(b)] = 1;
                 }

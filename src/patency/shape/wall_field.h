@@ -17,7 +17,7 @@ struct WallSettings {
     bool is_filled = false;              ///< plaque fills what lies between the lumen and the healthy one; else the wall follows the lumen
     std::size_t line = 0;                ///< the wall around this line,
     double from = 0, to = 0;             ///< from and to these arcs [m],
-    double reach = 0;                    ///< and this much farther along every way [m], or to its opening, or past the bifurcation there
+    double reach = 0;                    ///< and this much farther along every way [m], or to its opening, or past a bifurcation that is a diameter or less away
 };
 
 /// Where a part of a vessel ends: a plane across it.

@@ -136,6 +136,8 @@ private:
             if (config_.deployment.tethering > 0) add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
             stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface, {.friction = config_.deployment.friction, .step = step}));
         }
+        if (phase == DeployPhase::enter && !balloon_)   // folded within the stent, which the wall closes on
+            balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
         if (program_.predilation && !predilator_ && phase <= DeployPhase::enter)
             predilator_ = add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.predilation));
         if (phase == DeployPhase::open) open(tool);
@@ -144,14 +146,24 @@ private:
 
     template <class Tool>
     void open(const Tool& tool) {
-        if (predilator_) past_.add(predilator_->report()), system().contacts.pop_back(), predilator_ = nullptr;
-        if (config_.deployment.mode == deck::DeploymentMode::balloon) {
-            balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
+        const bool by_balloon = config_.deployment.mode == deck::DeploymentMode::balloon;
+        drop_last(predilator_);
+        if (!by_balloon) drop_last(balloon_);
+        if (by_balloon) {
+            if (!balloon_) balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
             add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon));
             return;
         }
         load_ = std::make_shared<RadialLoad>(RadialLoad{.from = program_.open_from, .ramp = config_.deployment.ramp, .most = config_.deployment.load});
         stent_->pressures.push_back({stent_inner, [load = load_](double t) { return load->pressure(t); }});
+    }
+
+    /// A tool that is done, if it is there: the last contact.
+    void drop_last(Contact*& tool) {
+        if (!tool) return;
+        past_.add(tool->report());
+        system().contacts.pop_back();
+        tool = nullptr;
     }
 
     Contact* add(std::unique_ptr<Contact> contact) {

@@ -29,6 +29,7 @@ std::string_view name_of(DeployPhase phase) {
 
 DeployProgram make_deploy_program(const StentPlace& place, const deck::Deployment& deployment) {
     const double cut = place.pattern.diameter / 2, crimped = place.crimped_diameter / 2, opened = place.diameter / 2, strut = place.pattern.strut_thickness;
+    const double folded = crimped - strut, full = opened - strut;   // the balloon that it is crimped onto; its inner face when it is open
     const double ramp = deployment.ramp;
     DeployProgram program;
     double time = 0;
@@ -46,10 +47,9 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
         if (!is_crimped) add(DeployPhase::release, way);   // while nothing happens to the stent
         const double small = 0.25 * std::min(place.narrowest, *deployment.predilation), wide = *deployment.predilation / 2, from = time;
         add(DeployPhase::enter, entering * ramp);
-        program.predilation = steady_radius({0, from, time}, {small, wide, small});
+        program.predilation = steady_radius({0, from, time}, {small, wide, folded});   // and hands the wall over to the folded balloon
     }
     program.open_from = time;
-    const double folded = crimped - strut, full = opened - strut;   // what it is crimped onto; its inner face when it is open
     add(DeployPhase::open, ramp);
     program.open_to = time;
     add(DeployPhase::hold, holding * ramp);
