@@ -94,7 +94,7 @@ void write_verification_report(const fs::path& out, const fs::path& document, co
                "# Verification\n\nEvery case below has a known answer. The tables are written by `patency verify --level full -o out` and\n"
                "`patency verify --report docs/VERIFICATION.md -o out`, which keeps what `out` does not have; decks are in `cases/verify/`, the closed forms in\n"
                "[THEORY](THEORY.md) section 12, the measures of error in section 13. Keys that begin with `paper_` belong to the\n"
-               "reference paper's scheme, run here, and `paper_printed_` to the figures that the paper prints; they have no bar.\n\n" +
+               "reference paper's scheme, run here, and `paper_printed_` to the figures that the paper prints; they have no bar. Each case says\nwhen it was run, with the program of that day; times are of machines that other runs shared.\n\n" +
                    summary + paper + body);
 }
 
