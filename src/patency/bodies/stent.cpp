@@ -107,8 +107,9 @@ void make_stent_particles(const ImportedStent& stent, const StentAxis& axis, dou
     expect_fine(stent, spacing);
     StentParticles straight;
     make_stent_particles(make_surface_distance(stent.surface, spacing), stent.volume, spacing, straight);
+    const StentAxis own;
     std::vector<StentPoint> points;
-    for (const Vec3& x : straight.position) points.push_back({std::hypot(x.y, x.z), std::atan2(x.z, x.y), x.x});
+    for (const Vec3& x : straight.position) points.push_back(own.coordinates(x));
     bend(points, axis, stent.volume, false, particles);
 }
 

@@ -23,7 +23,7 @@ double largest_stent_spacing(const StentForm& form);
 /// (measure_stent). Throws GeometryError if the spacing [m] is too large.
 void make_stent_particles(const StrutCurves& curves, const StentAxis& axis, double spacing, StentParticles& particles);
 
-/// Relaxed in the straight metal of a surface, then bent; volumes as those of a pattern. Throws GeometryError if the spacing [m] is
+/// Relaxed in the straight metal of a surface, then bent: volumes are larger on the outer side of a bend, their sum is the metal's. Throws GeometryError if the spacing [m] is
 /// too large.
 void make_stent_particles(const ImportedStent& stent, const StentAxis& axis, double spacing, StentParticles& particles);
 

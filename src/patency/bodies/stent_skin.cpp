@@ -38,7 +38,8 @@ SurfaceElements skin_of(const ImportedStent& stent, const StentAxis& axis, doubl
         const double out = (area.y * middle.y + area.z * middle.z) / (norm(area) * std::hypot(middle.y, middle.z));
         skin.face.push_back(out > facing ? stent_outer : out < -facing ? stent_inner : stent_side);
     }
-    for (const Vec3& x : surface.points) skin.vertices.push_back(axis.place({std::hypot(x.y, x.z), std::atan2(x.z, x.y), x.x}));
+    const StentAxis own;
+    for (const Vec3& x : surface.points) skin.vertices.push_back(axis.place(own.coordinates(x)));
     return skin;
 }
 
