@@ -29,7 +29,7 @@ SolidNumerics numerics_of(const deck::Case& config, double spacing) {
 
 SolidNumerics stent_numerics(const deck::Case& config, double spacing) {
     SolidNumerics n = numerics_of(config, spacing);
-    n.smoothing_ratio = stent_smoothing_ratio;
+    if (!config.stent->surface) n.smoothing_ratio = stent_smoothing_ratio;   // else that of any solid
     return n;
 }
 
@@ -110,12 +110,12 @@ double usual_wall_spacing(double thickness) { return std::min(0.2e-3, thickness 
 
 double network_resolution(const deck::Case& config) { return config.wall.spacing.value_or(usual_wall_spacing(INFINITY)); }
 
-double stent_mass_scaling(const deck::Case& config, const StentPattern& pattern, double spacing) {
+double stent_mass_scaling(const deck::Case& config, const StentPlace& place, double spacing) {
     const deck::Deployment& d = config.deployment;
     if (d.mass_scaling) return *d.mass_scaling;
-    const SolidMaterial metal = stent_material(*config.stent, pattern);
+    const SolidMaterial metal = stent_material(*config.stent, place.pattern);
     const SolidNumerics n = stent_numerics(config, spacing);
-    const double step = std::sqrt(stent_particle_mass_scaling) * n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density)),
+    const double step = stent_step_share(place.form) * std::sqrt(stent_particle_mass_scaling) * n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density)),
                  wanted = d.ramp / d.steps;
     return std::max(1.0, (wanted / step) * (wanted / step));
 }
@@ -139,7 +139,7 @@ std::unique_ptr<DeployScene> build_deployment(const deck::Case& config) {
 
     const SolidMaterial metal = stent_material(*config.stent, scene->place.pattern);
     const SolidNumerics numerics = stent_numerics(config, scene->stent_spacing);
-    scene->mass_scaling = stent_mass_scaling(config, scene->place.pattern, scene->stent_spacing);
+    scene->mass_scaling = stent_mass_scaling(config, scene->place, scene->stent_spacing);
     scene->stent = make_stent_part("stent", scene->place.form, scene->place.axis, metal, numerics, scene->mass_scaling);
     scene->wall = make_wall_part(*scene);
     carry_lumen(*scene);

@@ -37,6 +37,6 @@ double network_resolution(const deck::Case& config);
 /// Where the deck says nothing: 0.2 mm, or what puts four particles through the thickness [m].
 double usual_wall_spacing(double thickness);
 /// How much heavier the stent is made, so that it bears as few steps in the ramp as the deck wants: its stable step grows with the root.
-double stent_mass_scaling(const deck::Case& config, const StentPattern& pattern, double spacing);
+double stent_mass_scaling(const deck::Case& config, const StentPlace& place, double spacing);
 
 }   // namespace patency

@@ -16,12 +16,15 @@ constexpr double spacings_per_element = 4.0 / 3;
 
 }   // namespace
 
+double stent_step_share(const StentForm& form) { return std::holds_alternative<ImportedStent>(form) ? 2.0 / 3 : 1; }
+
 std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis, const SolidMaterial& material,
                                            const SolidNumerics& numerics, double mass_scaling) {
     SolidNumerics driven = numerics;   // a stent goes where tools and walls take it
     driven.weights = SolidWeights::steep;
     driven.across_gaps = false;   // struts pass each other closely, and meet connectors at sharp angles
     driven.mass_scaling = stent_particle_mass_scaling;
+    driven.cfl *= stent_step_share(form);
     StentParticles metal;
     std::visit([&](const auto& f) { make_stent_particles(f, axis, numerics.spacing, metal); }, form);
     auto part = std::make_unique<SolidPart>();

@@ -14,8 +14,11 @@ namespace patency {
 /// How many times heavier a stent's particles are against their neighbours. Four times as long a step then bears it; struts
 /// that swing weigh a twentieth more.                                                                 THEORY (20.17)
 inline constexpr double stent_particle_mass_scaling = 16;
-/// Smoothing length over spacing that resolves bending best with four particles across.
+/// Smoothing length over spacing that resolves bending best with four particles across, in layers as the struts of a pattern hold them.
 inline constexpr double stent_smoothing_ratio = 1.0;
+/// Of the step that particles in layers bear, what these do: those of a surface are relaxed in space, and a stent of theirs turned inside
+/// out within a hundred steps of its crimping at the whole step, not at three quarters.
+double stent_step_share(const StentForm& form);
 
 /// The stent as it was made, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
 /// every strut (largest_stent_spacing); mass_scaling multiplies the material's density. Its surface has the faces outer,
