@@ -16,7 +16,7 @@ constexpr double spacings_per_element = 4.0 / 3;
 
 }   // namespace
 
-double stent_step_share(const StentForm& form) { return std::holds_alternative<ImportedStent>(form) ? 2.0 / 3 : 1; }
+double stent_step_share(const StentForm& form) { return std::holds_alternative<ImportedStent>(form) ? 0.4 : 1; }
 
 std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis, const SolidMaterial& material,
                                            const SolidNumerics& numerics, double mass_scaling) {
