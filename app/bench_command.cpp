@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // `patency bench flow|solid`: how fast flow and solids are computed, beside the reference loop, with the answers compared.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
 
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
 #include "patency/verify/bench_flow.h"
 #include "patency/verify/bench_solid.h"
@@ -38,17 +38,17 @@ void run(const Options& o, Bench bench) {
 
 }  // namespace
 
-void add_bench_command(CLI::App& program, ExitCode&) {
-    CLI::App* bench = program.add_subcommand("bench", "measure the speed, with a reference beside it and the answer checked");
-    bench->require_subcommand(1);
+void add_bench_command(const Command& program, ExitCode&) {
+    const Command bench = program.add_command("bench", "measure the speed, with a reference beside it and the answer checked");
+    bench.expect_one_of_its_commands();
     const auto add = [&](const char* name, const char* what, const char* names, Bench measure) {
-        CLI::App* command = bench->add_subcommand(name, what);
+        const Command command = bench.add_command(name, what);
         const auto o = std::make_shared<Options>();
-        command->add_option("names", o->names, names);
-        command->add_option("--threads", o->threads, "how many threads; one per core if absent")->check(CLI::Range(1, 1024));
-        command->add_option("--effort", o->effort, "how many times more steps, for steadier numbers")->check(CLI::PositiveNumber);
-        command->add_flag("--json", o->as_json, "print a JSON array");
-        command->callback([o, measure] { run(*o, measure); });
+        command.add_option("names", o->names, names);
+        command.add_option("--threads", o->threads, "how many threads; one per core if absent").between(1, 1024);
+        command.add_option("--effort", o->effort, "how many times more steps, for steadier numbers").positive();
+        command.add_flag("--json", o->as_json, "print a JSON array");
+        command.when_given([o, measure] { run(*o, measure); });
     };
     add("flow", "pipes with openings and walls", "parts of names: pipe_d16, pipe_d32, two_threads, growth, mixed, double; all if absent", run_flow_bench);
     add("solid", "a block of 200,000 particles", "parts of names: block_mixed, block_double, metal_mixed; all if absent", run_solid_bench);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency check: all mistakes of a deck at once, then what the flow will be and cost. Runs nothing.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <optional>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "solid_runner.h"
@@ -102,11 +102,11 @@ void check(const DeckOptions& options) {
 
 }  // namespace
 
-void add_check_command(CLI::App& program, ExitCode&) {
-    CLI::App* command = program.add_subcommand("check", "report all mistakes of a deck, and what it will cost; runs nothing");
+void add_check_command(const Command& program, ExitCode&) {
+    const Command command = program.add_command("check", "report all mistakes of a deck, and what it will cost; runs nothing");
     const auto options = std::make_shared<DeckOptions>();
-    options->add_to(*command);
-    command->callback([options] { check(*options); });
+    options->add_to(command);
+    command.when_given([options] { check(*options); });
 }
 
 }  // namespace patency::app

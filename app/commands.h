@@ -11,21 +11,23 @@ class App;
 
 namespace patency::app {
 
-void add_version_command(CLI::App& program, ExitCode& exit_code);
-void add_schema_command(CLI::App& program, ExitCode& exit_code);
-void add_init_command(CLI::App& program, ExitCode& exit_code);
-void add_check_command(CLI::App& program, ExitCode& exit_code);
-void add_inspect_command(CLI::App& program, ExitCode& exit_code);
-void add_stent_command(CLI::App& program, ExitCode& exit_code);
-void add_estimate_command(CLI::App& program, ExitCode& exit_code);
-void add_flow_command(CLI::App& program, ExitCode& exit_code);
-void add_deploy_command(CLI::App& program, ExitCode& exit_code);
-void add_solid_command(CLI::App& program, ExitCode& exit_code);
-void add_run_command(CLI::App& program, ExitCode& exit_code);
-void add_sweep_command(CLI::App& program, ExitCode& exit_code);
-void add_report_command(CLI::App& program, ExitCode& exit_code);
-void add_verify_command(CLI::App& program, ExitCode& exit_code);
-void add_bench_command(CLI::App& program, ExitCode& exit_code);
+class Command;
+
+void add_version_command(const Command& program, ExitCode& exit_code);
+void add_schema_command(const Command& program, ExitCode& exit_code);
+void add_init_command(const Command& program, ExitCode& exit_code);
+void add_check_command(const Command& program, ExitCode& exit_code);
+void add_inspect_command(const Command& program, ExitCode& exit_code);
+void add_stent_command(const Command& program, ExitCode& exit_code);
+void add_estimate_command(const Command& program, ExitCode& exit_code);
+void add_flow_command(const Command& program, ExitCode& exit_code);
+void add_deploy_command(const Command& program, ExitCode& exit_code);
+void add_solid_command(const Command& program, ExitCode& exit_code);
+void add_run_command(const Command& program, ExitCode& exit_code);
+void add_sweep_command(const Command& program, ExitCode& exit_code);
+void add_report_command(const Command& program, ExitCode& exit_code);
+void add_verify_command(const Command& program, ExitCode& exit_code);
+void add_bench_command(const Command& program, ExitCode& exit_code);
 void add_man_command(CLI::App& program, ExitCode& exit_code);
 void add_completion_command(CLI::App& program, ExitCode& exit_code);
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deck_options.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "command_line.h"
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
 
 namespace patency::app {
 
-void DeckOptions::add_to(CLI::App& command) {
-    command.add_option("case", path, "the deck (YAML)")->required();
-    command.add_option("--set", settings, "change a key of the deck: key=value; may be repeated")->expected(1)->take_all();
+void DeckOptions::add_to(const Command& command) {
+    command.add_option("case", path, "the deck (YAML)").required();
+    command.add_option("--set", settings, "change a key of the deck: key=value; may be repeated").repeated();
     command.add_option("--run", run, "which of the deck's runs");
-    command.add_option("--threads", threads, "how many threads; the deck's or one per core if absent")->check(CLI::Range(1, 1024));
+    command.add_option("--threads", threads, "how many threads; the deck's or one per core if absent").between(1, 1024);
 }
 
 deck::Case DeckOptions::read() const {

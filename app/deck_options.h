@@ -6,11 +6,9 @@
 
 #include "patency/config/deck.h"
 
-namespace CLI {
-class App;
-}
-
 namespace patency::app {
+
+class Command;
 
 struct DeckOptions {
     std::string path;
@@ -18,7 +16,7 @@ struct DeckOptions {
     std::string run;           ///< --run NAME
     int threads = 0;           ///< --threads; 0: the deck's
 
-    void add_to(CLI::App& command);
+    void add_to(const Command& command);
     /// The deck, with the settings over it; of a deck with runs the one asked for. Throws DeckError, FileError, UsageError.
     deck::Case read() const;
     /// Bounds the threads: --threads, else numerics.threads, else one per core. Returns how many there are.

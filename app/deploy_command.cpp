@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency deploy: the stent alone.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "stage_runner.h"
@@ -53,14 +53,14 @@ ExitCode run(const DeployOptions& options) {
 
 }   // namespace
 
-void add_deploy_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("deploy", "implant the deck's stent: crimp it, open it in the vessel, let go");
+void add_deploy_command(const Command& program, ExitCode& exit_code) {
+    const Command command = program.add_command("deploy", "implant the deck's stent: crimp it, open it in the vessel, let go");
     const auto options = std::make_shared<DeployOptions>();
-    options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "the folder for the results; with mechanics it goes on from a checkpoint there")->required();
-    command->add_option("--mode", options->mode, "balloon, radial_load, or geometric: a quick change of shape without mechanics; instead of the deck's");
-    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    options->deck.add_to(command);
+    command.add_option("-o,--out", options->out, "the folder for the results; with mechanics it goes on from a checkpoint there").required();
+    command.add_option("--mode", options->mode, "balloon, radial_load, or geometric: a quick change of shape without mechanics; instead of the deck's");
+    command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
+    command.when_given([options, &exit_code] { exit_code = run(*options); });
 }
 
 }   // namespace patency::app

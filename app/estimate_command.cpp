@@ -2,11 +2,11 @@
 // patency estimate: flow split, pressures and FFR of a vessel as a tree of tubes, in a second. A table on the terminal; with
 // -o summary.json and pullback.csv.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "patency/base/units.h"
@@ -87,15 +87,15 @@ void estimate(const EstimateOptions& o) {
 
 }   // namespace
 
-void add_estimate_command(CLI::App& program, ExitCode&) {
-    CLI::App* command =
-        program.add_subcommand("estimate", "flows, pressures and FFR of a vessel as a tree of tubes, in a second");
+void add_estimate_command(const Command& program, ExitCode&) {
+    const Command command =
+        program.add_command("estimate", "flows, pressures and FFR of a vessel as a tree of tubes, in a second");
     const auto options = std::make_shared<EstimateOptions>();
-    options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "Folder of the results");
-    command->add_flag("--vary", options->vary,
+    options->deck.add_to(command);
+    command.add_option("-o,--out", options->out, "Folder of the results");
+    command.add_flag("--vary", options->vary,
                       "Bands for a tenth more or less flow, a tenth of a millimetre of diameter, another split");
-    command->callback([options] { estimate(*options); });
+    command.when_given([options] { estimate(*options); });
 }
 
 }   // namespace patency::app

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency flow: the flow stage alone.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "stage_runner.h"
@@ -36,13 +36,13 @@ ExitCode run(const FlowOptions& options) {
 
 }  // namespace
 
-void add_flow_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("flow", "compute the blood flow");
+void add_flow_command(const Command& program, ExitCode& exit_code) {
+    const Command command = program.add_command("flow", "compute the blood flow");
     const auto options = std::make_shared<FlowOptions>();
-    options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")->required();
-    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    options->deck.add_to(command);
+    command.add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on").required();
+    command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
+    command.when_given([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace patency::app

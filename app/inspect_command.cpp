@@ -2,13 +2,13 @@
 // patency inspect: what a surface is as a vessel. A table on the terminal; with -o the cleaned surface, what was found
 // wrong with it, figures and a picture.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "command_line.h"
 #include "commands.h"
 #include "patency/base/units.h"
 #include "patency/io/atomic_file.h"
@@ -224,20 +224,20 @@ void run(const InspectOptions& o) {
 
 }   // namespace
 
-void add_inspect_command(CLI::App& program, ExitCode&) {
-    CLI::App* command =
-        program.add_subcommand("inspect", "say what a surface is as a vessel: openings, sizes, defects, a picture");
+void add_inspect_command(const Command& program, ExitCode&) {
+    const Command command =
+        program.add_command("inspect", "say what a surface is as a vessel: openings, sizes, defects, a picture");
     const auto o = std::make_shared<InspectOptions>();
-    command->add_option("surface", o->path, "a surface (STL, VTP, PLY, OBJ, legacy VTK), a label map (NIfTI, NRRD, MetaImage) or a network of tubes (JSON, SWC, "
-                                         "VTP, legacy VTK)")->required();
-    command->add_option("--unit", o->unit, "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
-    command->add_option("--label", o->label, "of a label map with several: which one is the vessel");
-    command->add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
-    command->add_option("-o,--out", o->out,
+    command.add_option("surface", o->path, "a surface (STL, VTP, PLY, OBJ, legacy VTK), a label map (NIfTI, NRRD, MetaImage) or a network of tubes (JSON, SWC, "
+                                         "VTP, legacy VTK)").required();
+    command.add_option("--unit", o->unit, "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
+    command.add_option("--label", o->label, "of a label map with several: which one is the vessel");
+    command.add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
+    command.add_option("-o,--out", o->out,
                         "a folder for the cleaned surface, the findings, the figures and a picture");
-    command->add_option("--inlet", o->inlet,
+    command.add_option("--inlet", o->inlet,
                         "the opening that is the inlet, by name or number; the largest if not given");
-    command->callback([o] { run(*o); });
+    command.when_given([o] { run(*o); });
 }
 
 }   // namespace patency::app

@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 
+#include "command_line.h"
 #include "commands.h"
 #include "exit_codes.h"
 
@@ -19,21 +20,22 @@ int run(int argc, char** argv) {
     ExitCode exit_code = ExitCode::ok;
     CLI::App program("Blood flow in a coronary artery by particle methods. Not a medical device.", "patency");
     program.require_subcommand(1);
-    app::add_check_command(program, exit_code);
-    app::add_inspect_command(program, exit_code);
-    app::add_init_command(program, exit_code);
-    app::add_stent_command(program, exit_code);
-    app::add_estimate_command(program, exit_code);
-    app::add_flow_command(program, exit_code);
-    app::add_deploy_command(program, exit_code);
-    app::add_solid_command(program, exit_code);
-    app::add_run_command(program, exit_code);
-    app::add_sweep_command(program, exit_code);
-    app::add_report_command(program, exit_code);
-    app::add_verify_command(program, exit_code);
-    app::add_bench_command(program, exit_code);
-    app::add_schema_command(program, exit_code);
-    app::add_version_command(program, exit_code);
+    const app::Command commands(&program);
+    app::add_check_command(commands, exit_code);
+    app::add_inspect_command(commands, exit_code);
+    app::add_init_command(commands, exit_code);
+    app::add_stent_command(commands, exit_code);
+    app::add_estimate_command(commands, exit_code);
+    app::add_flow_command(commands, exit_code);
+    app::add_deploy_command(commands, exit_code);
+    app::add_solid_command(commands, exit_code);
+    app::add_run_command(commands, exit_code);
+    app::add_sweep_command(commands, exit_code);
+    app::add_report_command(commands, exit_code);
+    app::add_verify_command(commands, exit_code);
+    app::add_bench_command(commands, exit_code);
+    app::add_schema_command(commands, exit_code);
+    app::add_version_command(commands, exit_code);
     app::add_man_command(program, exit_code);
     app::add_completion_command(program, exit_code);
     std::string codes = "Exit codes:";

@@ -2,7 +2,6 @@
 // patency run: everything that a deck asks for, one stage after the other: the flow, then with a stent its deployment and the flow
 // after, and the estimate with its bands. Each stage's results are in a folder of its own in OUT, what they say together in
 // OUT/summary.json and on the page.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "stage_runner.h"
@@ -179,14 +179,14 @@ ExitCode run(const RunOptions& options) {
 
 }   // namespace
 
-void add_run_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("run", "everything that the deck asks for: the flow, with a stent its deployment and the flow after, and the page; or solids");
+void add_run_command(const Command& program, ExitCode& exit_code) {
+    const Command command = program.add_command("run", "everything that the deck asks for: the flow, with a stent its deployment and the flow after, and the page; or solids");
     const auto options = std::make_shared<RunOptions>();
-    options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")->required();
-    command->add_option("--stages", options->stages, "only these of before, deploy and after; what ended earlier is kept")->delimiter(',');
-    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    options->deck.add_to(command);
+    command.add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on").required();
+    command.add_option("--stages", options->stages, "only these of before, deploy and after; what ended earlier is kept").comma_separated();
+    command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
+    command.when_given([options, &exit_code] { exit_code = run(*options); });
 }
 
 }   // namespace patency::app

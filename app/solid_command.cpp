@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency solid: solids by themselves.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "solid_runner.h"
@@ -28,13 +28,13 @@ ExitCode run(const SolidOptions& options) {
 
 }   // namespace
 
-void add_solid_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("solid", "compute solids alone: how they deform, yield and touch");
+void add_solid_command(const Command& program, ExitCode& exit_code) {
+    const Command command = program.add_command("solid", "compute solids alone: how they deform, yield and touch");
     const auto options = std::make_shared<SolidOptions>();
-    options->deck.add_to(*command);
-    command->add_option("-o,--out", options->out, "the folder for the results")->required();
-    command->add_flag("--fresh", options->fresh, "begin anew instead of going on");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    options->deck.add_to(command);
+    command.add_option("-o,--out", options->out, "the folder for the results").required();
+    command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
+    command.when_given([options, &exit_code] { exit_code = run(*options); });
 }
 
 }   // namespace patency::app

@@ -2,13 +2,13 @@
 // patency stent: the library of designs, one of them in figures, or a stent that comes as a surface. With -o the metal's
 // surface, its particles, figures and a picture.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "command_line.h"
 #include "commands.h"
 #include "patency/base/units.h"
 #include "patency/bodies/stent.h"
@@ -239,30 +239,30 @@ void import(const StentOptions& o) {
 
 }   // namespace
 
-void add_stent_command(CLI::App& program, ExitCode&) {
-    CLI::App* command = program.add_subcommand("stent", "the library of stents, and stents from surfaces");
-    command->require_subcommand(1);
+void add_stent_command(const Command& program, ExitCode&) {
+    const Command command = program.add_command("stent", "the library of stents, and stents from surfaces");
+    command.expect_one_of_its_commands();
     const auto o = std::make_shared<StentOptions>();
-    command->add_subcommand("list", "the designs by name")->callback(print_library);
-    const auto add_output = [&](CLI::App* sub) {
-        sub->add_option("--spacing", o->spacing,
+    command.add_command("list", "the designs by name").when_given(print_library);
+    const auto add_output = [&](const Command& sub) {
+        sub.add_option("--spacing", o->spacing,
                         "of the particles, such as \"20 um\"; a quarter of a strut if not given");
-        sub->add_option("-o,--out", o->out, "a folder for the metal's surface, its particles, figures and a picture");
+        sub.add_option("-o,--out", o->out, "a folder for the metal's surface, its particles, figures and a picture");
     };
-    CLI::App* show_command = command->add_subcommand("show", "one design in figures");
-    show_command->add_option("name", o->name, "the design, or a deck with a stent (YAML)")->required();
-    show_command->add_option("--line", o->line, "a line to lie along: a table (CSV) with the columns x_mm, y_mm, z_mm");
-    show_command->add_option("--at", o->at, "where the stent's middle is on the line, such as \"12 mm\"");
-    show_command->add_option("--turn", o->turn, "around its axis, such as \"30 deg\"");
+    const Command show_command = command.add_command("show", "one design in figures");
+    show_command.add_option("name", o->name, "the design, or a deck with a stent (YAML)").required();
+    show_command.add_option("--line", o->line, "a line to lie along: a table (CSV) with the columns x_mm, y_mm, z_mm");
+    show_command.add_option("--at", o->at, "where the stent's middle is on the line, such as \"12 mm\"");
+    show_command.add_option("--turn", o->turn, "around its axis, such as \"30 deg\"");
     add_output(show_command);
-    show_command->callback([o] { show(*o); });
-    CLI::App* import_command = command->add_subcommand("import", "a stent's surface: its axis and its figures");
-    import_command->add_option("surface", o->path, "the closed surface of the metal: STL, VTP, PLY, OBJ or legacy VTK")
-        ->required();
-    import_command->add_option("--unit", o->unit, "of its coordinates: m, cm, mm or um")->required();
-    import_command->add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
+    show_command.when_given([o] { show(*o); });
+    const Command import_command = command.add_command("import", "a stent's surface: its axis and its figures");
+    import_command.add_option("surface", o->path, "the closed surface of the metal: STL, VTP, PLY, OBJ or legacy VTK")
+        .required();
+    import_command.add_option("--unit", o->unit, "of its coordinates: m, cm, mm or um").required();
+    import_command.add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
     add_output(import_command);
-    import_command->callback([o] { import(*o); });
+    import_command.when_given([o] { import(*o); });
 }
 
 }   // namespace patency::app

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // patency sweep: a deck with all combinations of some keys' values, each a run in a folder of its own; one table and one page.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
 #include "side_by_side.h"
@@ -151,18 +151,18 @@ ExitCode run(const SweepOptions& options) {
 
 }   // namespace
 
-void add_sweep_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("sweep", "a deck with all combinations of some keys' values, several runs at once; one table and one page");
+void add_sweep_command(const Command& program, ExitCode& exit_code) {
+    const Command command = program.add_command("sweep", "a deck with all combinations of some keys' values, several runs at once; one table and one page");
     const auto options = std::make_shared<SweepOptions>();
-    options->deck.add_to(*command);
-    command->get_option("--set")->description("a key of the deck and its values: key=value,value; may be repeated, all combinations are run");
-    command->get_option("--run")->description("which of the deck's runs; all of them if absent");
-    command->get_option("--threads")->description("how many threads all runs have together; the deck's or one per core if absent");
-    command->add_option("-o,--out", options->out, "the folder for the results; a sweep that was interrupted there goes on")->required();
-    command->add_option("--command", options->command, "what each run is")->check(CLI::IsMember({"run", "flow", "deploy", "estimate", "solid"}))->capture_default_str();
-    command->add_option("--jobs", options->jobs, "how many runs at once; as many as threads if absent")->check(CLI::Range(1, 1024));
-    command->add_flag("--fresh", options->fresh, "do all runs again");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    options->deck.add_to(command);
+    command.describe("--set", "a key of the deck and its values: key=value,value; may be repeated, all combinations are run");
+    command.describe("--run", "which of the deck's runs; all of them if absent");
+    command.describe("--threads", "how many threads all runs have together; the deck's or one per core if absent");
+    command.add_option("-o,--out", options->out, "the folder for the results; a sweep that was interrupted there goes on").required();
+    command.add_option("--command", options->command, "what each run is").one_of({"run", "flow", "deploy", "estimate", "solid"}).with_default();
+    command.add_option("--jobs", options->jobs, "how many runs at once; as many as threads if absent").between(1, 1024);
+    command.add_flag("--fresh", options->fresh, "do all runs again");
+    command.when_given([options, &exit_code] { exit_code = run(*options); });
 }
 
 }   // namespace patency::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `patency verify`: cases with known answers, their figures against bars.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
 #include <unistd.h>
@@ -8,6 +7,7 @@
 #include <chrono>
 #include <memory>
 
+#include "command_line.h"
 #include "commands.h"
 #include "interruption.h"
 #include "patency/base/errors.h"
@@ -106,21 +106,21 @@ ExitCode run(const Options& o) {
 
 }  // namespace
 
-void add_verify_command(CLI::App& program, ExitCode& exit_code) {
-    CLI::App* command = program.add_subcommand("verify", "Run cases with known answers and hold their figures against bars");
+void add_verify_command(const Command& program, ExitCode& exit_code) {
+    const Command command = program.add_command("verify", "Run cases with known answers and hold their figures against bars");
     const auto o = std::make_shared<Options>();
-    command->add_option("names", o->names, "Cases; all of the level if none is named");
-    command->add_option("--level", o->level, "quick: eight minutes on two cores; full: everything")->check(CLI::IsMember({"quick", "full"}))->capture_default_str();
-    command->add_option("-o,--out", o->out, "Folder of the results; runs that are done are kept there and not done again")->capture_default_str();
-    command->add_option("--threads", o->threads, "Threads; all cores if not given")->check(CLI::NonNegativeNumber);
-    command->add_option("--set", o->settings, "KEY=VALUE over every deck")->take_all();
-    command->add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
-    command->add_option("--reference", o->reference, "Folder of stored results of other programs");
-    command->add_option("--report", o->report, "Write the document of the results in the folder and of those written before, and run nothing");
-    command->add_option("--run", o->run, "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
-    command->add_flag("--fresh", o->fresh, "Do all runs again");
-    command->add_flag("--list", o->is_listing, "List the cases");
-    command->callback([o, &exit_code] { exit_code = run(*o); });
+    command.add_option("names", o->names, "Cases; all of the level if none is named");
+    command.add_option("--level", o->level, "quick: eight minutes on two cores; full: everything").one_of({"quick", "full"}).with_default();
+    command.add_option("-o,--out", o->out, "Folder of the results; runs that are done are kept there and not done again").with_default();
+    command.add_option("--threads", o->threads, "Threads; all cores if not given").between(1, 1024);
+    command.add_option("--set", o->settings, "KEY=VALUE over every deck").repeated();
+    command.add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
+    command.add_option("--reference", o->reference, "Folder of stored results of other programs");
+    command.add_option("--report", o->report, "Write the document of the results in the folder and of those written before, and run nothing");
+    command.add_option("--run", o->run, "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
+    command.add_flag("--fresh", o->fresh, "Do all runs again");
+    command.add_flag("--list", o->is_listing, "List the cases");
+    command.when_given([o, &exit_code] { exit_code = run(*o); });
 }
 
 }  // namespace patency::app

@@ -17,6 +17,7 @@ target_link_libraries(patency PRIVATE patency_flags ${PATENCY_FLOORS} CLI11::CLI
 file(RELATIVE_PATH data /${PATENCY_PROGRAM_FOLDER} /${CMAKE_INSTALL_DATADIR}/patency)   # from where the program is installed
 target_compile_definitions(patency PRIVATE PATENCY_VERSION="${PROJECT_VERSION}" PATENCY_ISA="${PATENCY_ISA}"
   PATENCY_DATA="${data}" PATENCY_SOURCE_DIR="${developers_tree}")
+patency_compile(patency app)
 set_target_properties(patency PROPERTIES OUTPUT_NAME ${PATENCY_PROGRAM} RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 file(GLOB chooser_sources CONFIGURE_DEPENDS app/chooser/*.cpp)

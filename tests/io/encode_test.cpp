@@ -43,7 +43,7 @@ TEST(Encode, WhatIsDeflatedInflatesToTheSame) {
 
 /// A picture, chunk by chunk: checksums hold, and the rows give the pixels again once the filter is undone.
 TEST(Encode, PngHoldsThePixels) {
-    Image image{.width = 3, .height = 2};
+    Bitmap image{.width = 3, .height = 2};
     for (int k = 0; k < 24; ++k) image.rgba.push_back(std::uint8_t(k * 37));
     const std::string file = png(image);
     ASSERT_EQ(file.substr(0, 8), "\x89PNG\r\n\x1a\n");

@@ -71,7 +71,7 @@ TEST(Page, StaysSmallForLargeResults) {
         put(folder / ("deploy/" + std::string(body) + ".pvd"), "<VTKFile><Collection>\n" + list + "</Collection></VTKFile>\n");
     }
     write_summary(folder / "summary.json", {{"name", "large"}, {"before", flow_summary()}, {"deploy", {{"recoil_percent", 3.5}}}, {"after", flow_summary()}});
-    const Results results = read_results(folder.path());
+    const RunResults results = read_results(folder.path());
     ASSERT_EQ(results.bodies.size(), 2u);
     EXPECT_EQ(results.bodies[0].frames.size(), 10u);
     EXPECT_EQ(results.bodies[0].times.back(), 59);   // the last is among them
@@ -96,7 +96,7 @@ TEST(Page, IsTheSameForTheSameResults) {
     const ScratchFolder folder;
     write_summary(folder / "summary.json", flow_summary());
     write_wall(folder / "wall.vtp", 40);
-    const Results results = read_results(folder.path());
+    const RunResults results = read_results(folder.path());
     EXPECT_EQ(make_page(results, "1"), make_page(read_results(folder.path()), "1"));
 }
 

@@ -22,7 +22,7 @@ PolyData squares() {
     return data;
 }
 
-std::array<int, 4> pixel(const Image& image, double x, double y) {
+std::array<int, 4> pixel(const Bitmap& image, double x, double y) {
     const std::size_t at = 4 * (std::size_t(y * double(image.height)) * image.width + std::size_t(x * double(image.width)));
     return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2], image.rgba[at + 3]};
 }
@@ -34,7 +34,7 @@ void expect_colour(const std::array<int, 4>& seen, const std::array<std::uint8_t
 
 TEST(Picture, TheNearerHidesTheFarther) {
     const PolyData data = squares();
-    const Image image = draw_field({.surface = data, .array = "P", .range = {0, 1}, .view = {}, .frame = data, .width = 100, .most_height = 100});
+    const Bitmap image = draw_field({.surface = data, .array = "P", .range = {0, 1}, .view = {}, .frame = data, .width = 100, .most_height = 100});
     EXPECT_EQ(image.rgba.size(), 4 * image.width * image.height);
     expect_colour(pixel(image, 0.5, 0.5), colour_of(0));    // faces look at the eye: full light
     expect_colour(pixel(image, 0.2, 0.5), colour_of(1));

@@ -70,6 +70,17 @@ class CheckLayers(unittest.TestCase):
             with self.subTest(file=file, header=header):
                 self.expect_sentence({f"src/patency/{file}": f"#include <{header}>\n"}, f"{file}:1: {header}")
 
+    def test_finds_two_types_of_one_name(self):
+        two = {"src/patency/base/a.h": "namespace patency {\n\nstruct Box {\n};\n\n}   // namespace patency\n"}
+        self.expect_sentence({**two, "src/patency/base/b.h": "namespace patency {\nclass Box : Thing {\n};\n}\n"},
+                             "src/patency/base/b.h:2: patency::Box is defined in src/patency/base/a.h:3 too")
+        for other in ("namespace patency::deck {\nstruct Box {\n};\n}\n",                        # another namespace
+                      "namespace patency {\nnamespace {\nstruct Box {\n};\n}   // namespace\n}\n",
+                      "namespace patency {\nstruct Box;\n}\n"):
+            with self.subTest(other=other):
+                code, output = run_check({**two, "src/patency/base/b.cpp": other})
+                self.assertEqual(code, 0, output)
+
     def test_says_when_there_is_no_tree(self):
         result = subprocess.run([sys.executable, REPOSITORY / "tools/check_layers", "/nowhere"], capture_output=True)
         self.assertEqual(result.returncode, 2)

@@ -47,7 +47,7 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-std::string png(const Image& image) {
+std::string png(const Bitmap& image) {
     assert(image.rgba.size() == 4 * image.width * image.height && "four numbers per pixel");
     const std::size_t row = 4 * image.width;
     std::string pixels;

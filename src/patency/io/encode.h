@@ -16,12 +16,12 @@ std::string deflated(std::string_view bytes);
 std::string base64(std::string_view bytes);
 
 /// Colours of pixels, rows from the top: red, green, blue and opacity from 0 to 255.
-struct Image {
+struct Bitmap {
     std::size_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba{};   ///< 4 per pixel
 };
 
 /// The picture as the bytes of a PNG file.
-std::string png(const Image& image);
+std::string png(const Bitmap& image);
 
 }   // namespace patency

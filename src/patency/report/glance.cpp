@@ -22,7 +22,7 @@ Pointers with_key(const Focus& focus, const std::string& key) {
 }
 
 /// The same; where the last flow has no such number of the lesion, the deployment's of the lumen.
-Pointers or_of_lumen(const Results& results, Pointers pointers, const std::string& key) {
+Pointers or_of_lumen(const RunResults& results, Pointers pointers, const std::string& key) {
     const Figures figures(*results.summary);
     if (pointers.size() > 1 && !(pointers.back() && figures.has(*pointers.back())) && figures.has("/deploy/lumen" + key)) pointers.back() = "/deploy/lumen" + key;
     return pointers;
@@ -35,7 +35,7 @@ std::string card(const std::string& label, const std::string& figure, const std:
 std::string note(const std::string& text) { return text.empty() ? text : "<p class=\"note\">" + text + "</p>"; }
 
 /// The estimate's band of FFR behind the lesion for each flow, as pointers; empty without one.
-std::vector<std::string> ffr_bands(const Results& results, const Focus& focus) {
+std::vector<std::string> ffr_bands(const RunResults& results, const Focus& focus) {
     std::vector<std::string> bands(results.flows.size());
     const Json& summary = *results.summary;
     if (!summary.contains("estimate")) return bands;
@@ -51,7 +51,7 @@ std::vector<std::string> ffr_bands(const Results& results, const Focus& focus) {
 
 /// FFR on a scale from 0.5 to 1, the same in every report: bands, a mark for every flow, and how uncertain it is: before above the scale,
 /// after below.
-std::string ffr_scale(const Results& results, const Pointers& pointers, const std::vector<std::string>& bands) {
+std::string ffr_scale(const RunResults& results, const Pointers& pointers, const std::vector<std::string>& bands) {
     constexpr double low = 0.5, width = 300, left = 10;
     const Figures figures(*results.summary);
     const auto x = [&](double ffr) { return left + (std::min(std::max(ffr, low), 1.0) - low) / (1 - low) * width; };
@@ -78,7 +78,7 @@ std::string ffr_words(double ffr, bool is_after) {
     return ffr > 0.8 ? "above 0.80: not taken as flow-limiting" : ffr > 0.75 ? "0.76 to 0.80: the grey zone" : "at most 0.75: taken as flow-limiting";
 }
 
-std::string ffr_card(const Results& results, const Focus& focus) {
+std::string ffr_card(const RunResults& results, const Focus& focus) {
     const Figures figures(*results.summary);
     const Pointers pointers = with_key(focus, "/ffr");
     const bool has_ffr = std::any_of(pointers.begin(), pointers.end(), [&](const auto& p) { return p && figures.has(*p); });
@@ -123,7 +123,7 @@ constexpr StentFact stent_facts[] = {
     {"/kinetic_to_internal", "Kinetic over internal energy", [](double v) { return v < 0.05; }, "deployed slowly enough", "deployed too fast to be trusted"},
 };
 
-std::string stent_card(const Results& results) {
+std::string stent_card(const RunResults& results) {
     if (!results.has_deployment) return {};
     const Figures figures(*results.summary);
     std::string items;
@@ -137,7 +137,7 @@ std::string stent_card(const Results& results) {
     return "<article class=\"card wide stent\"><h3>Stent</h3><ul class=\"facts\">" + items + "</ul>" + note(figures.text("/deploy/note")) + "</article>\n";
 }
 
-std::string lead(const Results& results, const Focus& focus) {
+std::string lead(const RunResults& results, const Focus& focus) {
     const Figures f(*results.summary);
     if (focus.lesion.empty()) {
         if (results.flows.empty()) return "<p class=\"lead\">A stent was opened in the vessel; no flow was computed.</p>";
@@ -151,7 +151,7 @@ std::string lead(const Results& results, const Focus& focus) {
 
 }   // namespace
 
-Focus focus_of(const Results& results) {
+Focus focus_of(const RunResults& results) {
     Focus focus{.lesion = {}, .in_flow = std::vector<std::optional<std::string>>(results.flows.size())};
     if (results.flows.empty()) return focus;
     const Json& first = results.part(results.flows.front());
@@ -166,7 +166,7 @@ Focus focus_of(const Results& results) {
     return focus;
 }
 
-std::string change(const Results& results, const Pointers& pointers, const Measure& measure) {
+std::string change(const RunResults& results, const Pointers& pointers, const Measure& measure) {
     const Figures figures(*results.summary);
     std::string text;
     for (std::size_t k = 0; k < pointers.size(); ++k)
@@ -175,7 +175,7 @@ std::string change(const Results& results, const Pointers& pointers, const Measu
     return text + (measure.unit.empty() ? "" : fmt::format("<span class=\"unit\"> {}</span>", measure.unit));
 }
 
-std::string glance_section(const Results& results) {
+std::string glance_section(const RunResults& results) {
     const Focus focus = focus_of(results);
     std::string cards;
     if (!focus.lesion.empty()) {

@@ -20,7 +20,7 @@ std::string json_block(const std::string& id, const std::string& text) {
     return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, safe);
 }
 
-const char* subtitle(const Results& results) {
+const char* subtitle(const RunResults& results) {
     const bool has_before = !results.flows.empty() && results.flows.front().key == "before", has_after = !results.flows.empty() && results.flows.back().key == "after";
     return has_before && has_after ? "Blood flow before and after a stent"
            : results.flows.empty() ? "The deployment of a stent"
@@ -40,7 +40,7 @@ constexpr std::string_view notes =
 
 }   // namespace
 
-std::string make_page(const Results& results, std::string_view version) {
+std::string make_page(const RunResults& results, std::string_view version) {
     const PageData data = make_page_data(results);
     std::string page = page_head(results.name) + "<body>\n" + page_masthead(results.name, subtitle(results)) + "<main>\n" + glance_section(results) + std::string(live_section) + static_section(results) + quality_section(results) +
                        tables_section(results) + run_section(results) + "</main>\n" + page_footer(version, notes);

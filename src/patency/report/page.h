@@ -11,7 +11,7 @@
 namespace patency {
 
 /// The page as text; `version` of the program is named in it.
-std::string make_page(const Results& results, std::string_view version);
+std::string make_page(const RunResults& results, std::string_view version);
 
 /// Reads the results in a folder and writes OUT/report.html. Returns its path. Throws FileError.
 std::filesystem::path write_report(const std::filesystem::path& folder, std::string_view version);

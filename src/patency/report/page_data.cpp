@@ -186,7 +186,7 @@ Piece make_piece(const PolyData& data, const Shown& shown, const std::vector<Fie
     return piece;
 }
 
-PageData make_page_data(const Results& results) {
+PageData make_page_data(const RunResults& results) {
     PageData page;
     Json model{{"name", results.name}, {"flows", Json::array()}, {"bodies", Json::array()}, {"files", Json::array()}};
     for (const FlowPart& flow : results.flows) {

@@ -60,6 +60,6 @@ struct PageData {
     std::string model;   ///< JSON
     std::vector<Blob> blobs;
 };
-PageData make_page_data(const Results& results);
+PageData make_page_data(const RunResults& results);
 
 }   // namespace patency

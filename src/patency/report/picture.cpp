@@ -96,8 +96,8 @@ public:
             }
     }
 
-    Image averaged() const {
-        Image image{.width = width_ / finer, .height = height_ / finer};
+    Bitmap averaged() const {
+        Bitmap image{.width = width_ / finer, .height = height_ / finer};
         for (std::size_t y = 0; y < image.height; ++y)
             for (std::size_t x = 0; x < image.width; ++x) {
                 Vec3 sum{};
@@ -122,7 +122,7 @@ private:
 
 }   // namespace
 
-Image draw_field(const SurfaceScene& scene) {
+Bitmap draw_field(const SurfaceScene& scene) {
     const Projection page(scene);
     Canvas canvas(page.width, page.height);
     const std::vector<Vec3> normals = point_normals(scene.surface), colours = point_colours(scene);

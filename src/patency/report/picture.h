@@ -25,6 +25,6 @@ struct SurfaceScene {
     const PolyData& frame;
     std::size_t width = 720, most_height = 620;   ///< pixels
 };
-Image draw_field(const SurfaceScene& scene);
+Bitmap draw_field(const SurfaceScene& scene);
 
 }   // namespace patency

@@ -124,7 +124,7 @@ Mark worse(Mark a, Mark b) { return a == Mark::look || b == Mark::look ? Mark::l
 
 }   // namespace
 
-std::string quality_strip(const Results& results) {
+std::string quality_strip(const RunResults& results) {
     const Figures figures(*results.summary);
     Mark mass = Mark::plain, convergence = Mark::plain, resolution = Mark::plain;
     for (const FlowPart& flow : results.flows) {
@@ -140,7 +140,7 @@ std::string quality_strip(const Results& results) {
     return items.empty() ? "" : "<ul class=\"strip-of-checks\">" + items + "<li><a href=\"#quality\">How far to trust it</a></li></ul>\n";
 }
 
-std::string quality_section(const Results& results) {
+std::string quality_section(const RunResults& results) {
     const Figures figures(*results.summary);
     const Focus focus = focus_of(results);
     std::string columns;

@@ -76,11 +76,11 @@ std::vector<DeployedBody> read_bodies(const fs::path& folder) {
 
 }   // namespace
 
-const Json& Results::part(const FlowPart& flow) const { return summary->at(Json::json_pointer(flow.path)); }
+const Json& RunResults::part(const FlowPart& flow) const { return summary->at(Json::json_pointer(flow.path)); }
 
-Results read_results(const fs::path& folder) {
+RunResults read_results(const fs::path& folder) {
     const auto summary = std::make_shared<const Json>(read_summary(folder / "summary.json"));
-    Results results{.root = folder, .name = {}, .summary = summary, .timing = {}, .summary_text = read_file(folder / "summary.json"), .flows = {}};
+    RunResults results{.root = folder, .name = {}, .summary = summary, .timing = {}, .summary_text = read_file(folder / "summary.json"), .flows = {}};
     if (fs::exists(folder / "timing.json")) results.timing = std::make_shared<const Json>(read_summary(folder / "timing.json"));
     const auto has = [&](const char* key) { return summary->is_object() && summary->contains(key) && summary->at(key).is_object(); };
     if (has("before")) results.flows.push_back(read_flow(folder, "before", "Before"));

@@ -39,7 +39,7 @@ struct DeployedBody {
     std::vector<PolyData> frames;
 };
 
-struct Results {
+struct RunResults {
     std::filesystem::path root;
     std::string name;                 ///< of the case
     std::shared_ptr<const nlohmann::ordered_json> summary, timing;   ///< timing is null without timing.json
@@ -53,7 +53,7 @@ struct Results {
 };
 
 /// Throws FileError: no summary.json, a damaged file, or results that have no page (solids, verification).
-Results read_results(const std::filesystem::path& folder);
+RunResults read_results(const std::filesystem::path& folder);
 
 /// Arcs from the inlet along the line that the stent lies on [mm].
 struct StentSpan {

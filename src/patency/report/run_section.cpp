@@ -36,7 +36,7 @@ void add_times(std::string& rows, const Figures& times, const Json& part, const 
         if (value.is_object()) add_times(rows, times, value, path + step(key), name.empty() ? key : name + ", " + key);
 }
 
-std::string times_table(const Results& results) {
+std::string times_table(const RunResults& results) {
     if (!results.timing) return {};
     std::string rows;
     add_times(rows, Figures(*results.timing), *results.timing, "", "");
@@ -45,7 +45,7 @@ std::string times_table(const Results& results) {
 
 }   // namespace
 
-std::string run_section(const Results& results) {
+std::string run_section(const RunResults& results) {
     std::string origin, decks, files;
     for (const FlowPart& flow : results.flows) origin += origin_rows(results.part(flow), results.flows.size() > 1 ? flow.title + ": " : "");
     for (const FlowPart& flow : results.flows) {

@@ -24,7 +24,7 @@ const PointArray* find(const PolyData& data, std::string_view name) {
 }
 
 /// Of a scalar field over all flows, without the outermost hundredths: single points do not set the scale.
-ColourRange common_range(const Results& results, const char* field) {
+ColourRange common_range(const RunResults& results, const char* field) {
     std::vector<double> values;
     for (const FlowPart& flow : results.flows)
         if (flow.wall)
@@ -51,7 +51,7 @@ std::string colour_bar(const ColourRange& range, double scale, const std::string
     return svg + "</svg><p class=\"bar-label\">" + label + "</p>";
 }
 
-std::string pictures(const Results& results) {
+std::string pictures(const RunResults& results) {
     const PolyData* frame = nullptr;
     for (const FlowPart& flow : results.flows)
         if (flow.wall && !frame) frame = &*flow.wall;
@@ -61,7 +61,7 @@ std::string pictures(const Results& results) {
     std::string html;
     for (const FlowPart& flow : results.flows)
         if (flow.wall) {
-            const Image image = draw_field({.surface = *flow.wall, .array = "Pressure", .range = range, .view = view, .frame = *frame});
+            const Bitmap image = draw_field({.surface = *flow.wall, .array = "Pressure", .range = range, .view = view, .frame = *frame});
             html += fmt::format("<figure><img alt=\"The vessel's wall coloured by pressure, {}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
                                 flow.title, image.width, image.height, base64(png(image)), flow.title);
         }
@@ -78,7 +78,7 @@ PullbackCurve curve_of(const CsvTable& table, double outlet, const char* column,
     return curve;
 }
 
-std::string curves(const Results& results) {
+std::string curves(const RunResults& results) {
     const FlowPart& first = results.flows.front();
     if (!first.pullback) return {};
     const auto& part = results.part(first);
@@ -115,7 +115,7 @@ std::string curves(const Results& results) {
 
 }   // namespace
 
-std::string static_section(const Results& results) {
+std::string static_section(const RunResults& results) {
     if (results.flows.empty()) return {};
     const std::string content = pictures(results) + curves(results);
     return content.empty() ? "" : "<section id=\"still\">\n<h2>The vessel</h2>\n" + content + "</section>\n";

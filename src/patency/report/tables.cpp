@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A heading over each flow's columns, when there are several.
-std::vector<std::string> with_flows(const Results& results, std::vector<std::string> head, const std::vector<std::string>& columns) {
+std::vector<std::string> with_flows(const RunResults& results, std::vector<std::string> head, const std::vector<std::string>& columns) {
     for (const FlowPart& flow : results.flows)
         for (const std::string& column : columns)
             head.push_back(results.flows.size() > 1 ? fmt::format("{}<br><span class=\"{}\">{}</span>", column, flow.key, flow.title) : column);
@@ -25,16 +25,16 @@ std::vector<std::string> with_flows(const Results& results, std::vector<std::str
 }
 
 /// A row whose cells are the same numbers of every flow.
-std::vector<std::string> cells_of(const Results& results, std::vector<std::string> cells, const std::vector<std::function<std::string(const std::string& path)>>& columns) {
+std::vector<std::string> cells_of(const RunResults& results, std::vector<std::string> cells, const std::vector<std::function<std::string(const std::string& path)>>& columns) {
     for (const FlowPart& flow : results.flows)
         for (const auto& column : columns) cells.push_back(column(flow.path));
     return cells;
 }
 
-const Json& first_part(const Results& results) { return results.part(results.flows.front()); }
-bool is_planar(const Results& results) { return first_part(results).value("planar", false); }
+const Json& first_part(const RunResults& results) { return results.part(results.flows.front()); }
+bool is_planar(const RunResults& results) { return first_part(results).value("planar", false); }
 
-std::string split_table(const Results& results) {
+std::string split_table(const RunResults& results) {
     const Figures f(*results.summary);
     const Measure flow = is_planar(results) ? Measure{"m²/s", 1, 6} : as_mL_per_min;
     std::string rows;
@@ -59,13 +59,13 @@ std::vector<std::string> branch_names(const Json& part) {
 }
 
 /// Its pointer in the flow at `path`; one to nothing where the flow has no such branch.
-std::string branch_called(const Results& results, const std::string& path, const std::string& name) {
+std::string branch_called(const RunResults& results, const std::string& path, const std::string& name) {
     const auto names = branch_names(results.summary->at(Json::json_pointer(path)));
     const auto at = std::find(names.begin(), names.end(), name);
     return at == names.end() ? "/none" : path + "/branches" + step(std::size_t(at - names.begin()));
 }
 
-std::string branch_table(const Results& results) {
+std::string branch_table(const RunResults& results) {
     const Figures f(*results.summary);
     std::vector<std::string> names;   // of all flows: a branch may be found in one of them only
     for (const FlowPart& flow : results.flows)
@@ -91,7 +91,7 @@ std::string branch_table(const Results& results) {
     return table("Branches", with_flows(results, {"Branch", "Length, mm"}, {"Flow, mL/min", "Pressure at its end, mmHg", "FFR at its end", "Particles across"}), rows);
 }
 
-std::string lesion_table(const Results& results) {
+std::string lesion_table(const RunResults& results) {
     const Figures f(*results.summary);
     std::string rows;
     for (const FlowPart& flow : results.flows) {
@@ -112,7 +112,7 @@ std::string lesion_table(const Results& results) {
 }
 
 /// The reference paper's table VI, row by row, its signs and units.
-std::string paper_table(const Results& results) {
+std::string paper_table(const RunResults& results) {
     const Figures f(*results.summary);
     const Focus focus = focus_of(results);
     if (focus.lesion.empty()) return {};
@@ -139,7 +139,7 @@ std::string paper_table(const Results& results) {
     return table("In the form of the reference paper's table VI", head, rows);
 }
 
-std::string outlet_table(const Results& results) {
+std::string outlet_table(const RunResults& results) {
     const Figures f(*results.summary);
     std::string rows;
     const std::string path = results.flows.front().path;
@@ -159,7 +159,7 @@ void add_numbers(std::string& rows, const Figures& f, const Json& part, const st
     }
 }
 
-std::string stent_table(const Results& results) {
+std::string stent_table(const RunResults& results) {
     if (!results.has_deployment) return {};
     std::string rows;
     add_numbers(rows, Figures(*results.summary), (*results.summary)["deploy"], "/deploy", "", as_ratio);
@@ -167,7 +167,7 @@ std::string stent_table(const Results& results) {
 }
 
 /// What everything is made of, and who says so.
-std::string material_table(const Results& results) {
+std::string material_table(const RunResults& results) {
     const Json& summary = *results.summary;
     if (!summary.contains("materials") || !summary["materials"].is_array()) return {};
     const Figures f(summary);
@@ -182,7 +182,7 @@ std::string material_table(const Results& results) {
     return table("Materials", {"Part", "What", "Numbers", "Source"}, rows);
 }
 
-std::string run_numbers(const Results& results) {
+std::string run_numbers(const RunResults& results) {
     const Figures f(*results.summary);
     std::string rows;
     const auto add = [&](const std::string& name, const char* key, const Measure& measure) {
@@ -227,7 +227,7 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
     return fmt::format("<div class=\"table\" tabindex=\"0\"><table><caption>{}</caption><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", caption, cells, rows);
 }
 
-std::string tables_section(const Results& results) {
+std::string tables_section(const RunResults& results) {
     std::string tables;
     if (!results.flows.empty()) tables += lesion_table(results) + split_table(results) + branch_table(results);
     tables += material_table(results);

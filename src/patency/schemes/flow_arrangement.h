@@ -3,22 +3,13 @@
 // there are fewer, and what is summed of positions alone, moments and correction matrices. Knows no force and no time.
 #pragma once
 
+#include "patency/base/symmetric_matrix.h"
 #include "patency/schemes/flow_terms.h"
 #include "patency/schemes/order.h"
 #include "patency/schemes/records.h"
 
 namespace patency {
 
-/// A symmetric 3x3 matrix as the sums come: xx, yy, zz, xy, xz, yz.
-template <class T>
-struct Sym {
-    T xx, yy, zz, xy, xz, yz;
-
-    friend Vec<T> operator*(const Sym& s, const Vec<T>& a) {
-        return {s.xx * a.x + s.xy * a.y + s.xz * a.z, s.xy * a.x + s.yy * a.y + s.yz * a.z,
-                s.xz * a.x + s.yz * a.y + s.zz * a.z};
-    }
-};
 template <class T>
 Mat3 matrix(const Sym<T>& s) {
     return {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};

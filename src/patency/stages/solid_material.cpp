@@ -38,6 +38,14 @@ Choice copper_bar() {
     return c;
 }
 
+/// What gives way at its strength without hardening. `extensibility`: the stretch at which a strip broke, of which the secant gives E.
+Choice tissue_that_gives_way(double density, double poisson, double strength, double extensibility) {
+    Choice c;
+    c.law = SolidLawName::j2_plastic;
+    c.density = density, c.young = strength / std::log(extensibility), c.poisson = poisson, c.yield_stress = strength;
+    return c;
+}
+
 /// Numbers of a choice that are wanted, each at most once.
 class Numbers {
 public:
@@ -104,6 +112,9 @@ std::span<const TableMaterial> material_table() {
         {"calcified_plaque", "stiff plaque, elastic",
          "Ansys Mechanical APDL Technology Showcase, chapter 25 (a stent in an occluded artery): E 2.19 MPa, nu 0.49; density as the wall's",
          rubber_like(1080, 2.19e6, 0.49)},
+        {"fibrous_plaque", "plaque that gives way where its strength ends and stays where it is pushed: E 0.956 MPa, yield 158 kPa, no hardening",
+         "Teng et al. 2015, J. Biomech. 48, 3859: fibrous caps bore 158.3 kPa and a stretch of 1.18 (medians); nu and density as the wall's",
+         tissue_that_gives_way(1080, 0.45, 158.3e3, 1.18)},
         {"316L", "stainless steel, annealed", "ASTM F138, least values: yield 172 MPa, ultimate 485 MPa, elongation 40 %",
          metal(8000, 193e9, 0.3, 172e6, 485e6, 0.40)},
         {"L605", "cobalt-chromium alloy, annealed", "ASTM F90, least values: yield 310 MPa, ultimate 860 MPa, elongation 30 %",

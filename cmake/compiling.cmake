@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+# How a folder is compiled. Loops over particles and voxels are compiled for speed; folders that read, write and arrange are compiled
+# quickly (-O1), for that is half of their building time. Either way has its precompiled header.
+set(PATENCY_ARRANGING config io stages report verify app)
+foreach(way looping arranging)
+  set(empty ${CMAKE_BINARY_DIR}/precompiled_${way}.cpp)
+  file(CONFIGURE OUTPUT ${empty} CONTENT "// holds the precompiled header\n")
+  add_library(patency_precompiled_${way} OBJECT ${empty})
+  target_link_libraries(patency_precompiled_${way} PRIVATE patency_flags OpenMP::OpenMP_CXX)
+  target_precompile_headers(patency_precompiled_${way} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled.h)
+endforeach()
+target_compile_options(patency_precompiled_arranging PRIVATE $<$<CONFIG:Release>:-O1>)
+
+function(patency_compile target folder)
+  set(way looping)
+  if(folder IN_LIST PATENCY_ARRANGING)
+    set(way arranging)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM patency_precompiled_${way})
+endfunction()
+
+# Its reference loops are timed.
+file(GLOB timed CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/verify/bench_*.cpp)
+set_source_files_properties(${timed} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
+
+# OpenVDB's templates are a third quicker to compile so, and no slower where they run: most of that is in its library.
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/patency/shape/surface_voxels.cpp PROPERTIES
+  COMPILE_OPTIONS $<$<CONFIG:Release>:-O1> SKIP_PRECOMPILE_HEADERS ON)
