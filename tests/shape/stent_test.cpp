@@ -201,6 +201,20 @@ TEST_P(Library, KeepsItsStrutsWhenItOpens) {
     EXPECT_NEAR(back.length, pattern_.length, 1e-9 * pattern_.length);
 }
 
+TEST_P(Library, OtherLengthsHaveTheSameRings) {
+    const StentPattern same = with_length(pattern_, pattern_.length);
+    EXPECT_EQ(same.rings, pattern_.rings);
+    EXPECT_NEAR(same.length, pattern_.length, 1e-12);
+    const StentPattern longer = with_length(pattern_, 1.4 * pattern_.length), shorter = with_length(pattern_, 0.6 * pattern_.length);
+    for (const StentPattern& p : {longer, shorter}) {
+        EXPECT_NEAR(ring_amplitude(p), ring_amplitude(pattern_), 1e-12);
+        EXPECT_NO_THROW(make_strut_curves(p));
+        const double pitch = std::abs(p.length - pattern_.length) / std::abs(p.rings - pattern_.rings);
+        EXPECT_LE(std::abs(p.length - (p.rings > pattern_.rings ? 1.4 : 0.6) * pattern_.length), 0.5001 * pitch);
+    }
+    EXPECT_EQ(with_length(pattern_, 0).rings, 2);
+}
+
 TEST(StrutMap, GridChangesNothing) {
     const StrutCurves curves = make_strut_curves(find_stent("two_link").pattern);
     const StrutMap map(curves);

@@ -17,6 +17,7 @@
 #include "patency/stages/bed.h"
 #include "patency/stages/build.h"
 #include "patency/stages/init_text.h"
+#include "patency/stages/stent_of_case.h"
 #include "patency/stages/stent_placement.h"
 #include "tests/io/scratch_folder.h"
 #include "tests/stages/vessels.h"
@@ -176,15 +177,17 @@ TEST(InitDeck, ProposesAStentThatFitsTheHealthyLumen) {
     const double misfit = std::abs(plan().stent->design->pattern.nominal_diameter - lesion.interpolated.diameter);
     for (const StentDesign& d : stent_library())
         EXPECT_GE(std::abs(d.pattern.nominal_diameter - lesion.interpolated.diameter), misfit);
-    EXPECT_TRUE(plan().stent->covers);
+    EXPECT_GT(plan().stent->pattern.length, lesion.length() + 3 * mm);   // half a ring may lack of 2 mm at both ends
+    EXPECT_LT(plan().stent->pattern.length, lesion.length() + 5.5 * mm);
     // With its comment signs taken away it is a deck too.
     std::string text = deck_text(y(), plan(), "/v");
-    for (const char* line : {"# stent:", "#   design:", "#   placement:", "# deployment:", "#   mode:"}) {
+    for (const char* line : {"# stent:", "#   design:", "#   length:", "#   placement:", "# deployment:", "#   mode:"}) {
         const std::size_t at = text.find(std::string("\n") + line);
         ASSERT_NE(at, text.npos) << line;
         text.erase(at + 1, 2);
     }
     EXPECT_EQ(*deck::parse_case(text, "deck", "/v").stent->design, plan().stent->design->name);
+    EXPECT_EQ(make_stent_pattern(*deck::parse_case(text, "deck", "/v").stent).rings, plan().stent->pattern.rings);
     EXPECT_FALSE(
         plan_case(followed(make_stenosed_tube(5 * mm, 60 * mm, 0.5)), settings_of()).stent);   // of 10 mm there is none
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include "patency/config/deck.h"
@@ -10,7 +12,7 @@
 namespace patency {
 namespace {
 
-nlohmann::ordered_json materials(const deck::Settings& settings) { return materials_summary(deck::read_case(std::string(PATENCY_SOURCE_DIR) + "/cases/coronary_bifurcation.yaml", settings)); }
+nlohmann::ordered_json materials(const deck::Settings& settings) { return materials_summary(deck::read_case(std::filesystem::path(PATENCY_SOURCE_DIR) / "cases/coronary_bifurcation.yaml", settings)); }
 
 TEST(MaterialsSummary, OfAFlowIsTheBloods) {
     const auto blood = materials({});

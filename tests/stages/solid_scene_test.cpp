@@ -71,6 +71,33 @@ TEST(SolidMaterial, WhatIsMissingIsSaid) {
     says(c, "exactly two");
 }
 
+// A slice of the plaque of a lesion, opened fourfold by a balloon: perfect plasticity resists nothing but the change of shape of a
+// neighbourhood, so what keeps single particles in their places is hourglass control.
+TEST(SolidScene, ParticlesOfPlaqueThatFlowsKeepTheirPlaces) {
+    const auto scene = build_solids(deck::parse_case(R"(version: 1
+solids:
+  - name: plaque
+    shape: {type: cylinder, from: [0 mm, 0 mm, 0 mm], to: [0 mm, 0 mm, 0.6 mm], diameter: 2.8 mm, inner_diameter: 0.6 mm}
+    material: {name: fibrous_plaque}
+    holds: [{face: from, axes: [false, false, true]}, {face: to, axes: [false, false, true]}]
+contacts:
+  - solid: plaque
+    tool: {type: balloon, from: [0 mm, 0 mm, -2 mm], to: [0 mm, 0 mm, 2 mm], times: [0 ms, 2 ms], diameters: [0.6 mm, 2.4 mm]}
+    damping: 0.2
+numerics: {spacing: 0.17 mm, duration: 2 ms}
+)"));
+    while (scene->time < 2e-3) step_solids(*scene, 2e-3);
+    const SolidParticles& p = scene->part("plaque").body->particles();
+    double least = INFINITY, most = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const auto radius = [](const Vec3& x) { return std::hypot(x.x, x.y); };
+        if (radius(p.reference[i]) > 0.42e-3) continue;   // the innermost particles, all at one radius
+        least = std::min(least, radius(p.position[i])), most = std::max(most, radius(p.position[i]));
+    }
+    ASSERT_GT(most, 0);
+    EXPECT_LT(most - least, 0.17e-3) << least << " to " << most;
+}
+
 TEST(SolidScene, EnergyIsWorkAndHeldParticlesStay) {
     const auto scene = build_solids(deck::parse_case(block));
     while (scene->time < 3e-3) step_solids(*scene, 3e-3);

@@ -24,6 +24,8 @@ TEST(StentOfCase, ADesignIsTheLibrarysWithTheDecksAlloy) {
     stent = {};
     stent.surface = "a.stl";
     EXPECT_THROW(make_stent_pattern(stent), DeckError);
+    stent.length = 10e-3;   // before the file is looked for
+    EXPECT_THROW(make_stent(stent), DeckError);
 }
 
 // The library's design, key by key, makes the same struts.

@@ -214,4 +214,14 @@ PATENCY_INLINE float coordinate_difference(float a, float b) {
 }
 PATENCY_INLINE double coordinate_difference(double a, double b) { return a - b; }
 
+/// Whole numbers of 16 bits as floats.
+template <int W>
+PATENCY_INLINE void load_whole(const std::int16_t* from, Pack<float, W>& to) {
+    typedef std::int16_t Short __attribute__((vector_size(2 * W)));
+    Short whole;
+    std::memcpy(&whole, from, sizeof whole);
+    to.v = __builtin_convertvector(__builtin_convertvector(whole, typename detail::IntRegister<W>::type), typename Pack<float, W>::Register);
+}
+PATENCY_INLINE void load_whole(const std::int16_t* from, float& to) { to = float(*from); }
+
 }  // namespace patency

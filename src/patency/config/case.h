@@ -255,6 +255,7 @@ struct StentPlacement {   // exactly one of arc_length, translation
 
 struct Stent {   // exactly one of design, pattern, surface
     std::optional<std::string> design;   ///< a name of the library
+    std::optional<double> length;        ///< m, of a design; absent: the library's
     std::optional<StentPattern> pattern;
     std::optional<std::filesystem::path> surface;   ///< closed, of the metal
     std::optional<std::string> unit;                ///< of the surface's coordinates

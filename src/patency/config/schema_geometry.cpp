@@ -184,6 +184,8 @@ const Table& table_of<Stent>() {
         "The stent; `patency stent list` shows the designs.",
         {
             row(&Stent::design, {.key = "design", .help = "a design of the library", .example = "\"open_cell\""}),
+            row(&Stent::length, {.key = "length", .help = "of a design: with as many rings as come nearest; as in the library if absent", .unit = "mm",
+                                 .range = above_up_to(0, 0.2), .example = "15 mm"}),
             row(&Stent::pattern, {.key = "pattern", .help = "its own pattern instead"}),
             row(&Stent::surface, {.key = "surface", .help = "the closed surface of its metal instead", .example = "\"stent.stl\""}),
             row(&Stent::unit, {.key = "unit", .help = "the unit of the surface's coordinates", .example = "\"mm\""}),

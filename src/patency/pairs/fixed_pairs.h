@@ -15,8 +15,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,22 @@ template <class P>
 struct FixedPair {
     Vec<P> wd;   ///< w (X_i - X_j)
     P w;
+};
+
+/// A pair as it is found.
+struct FoundPair {
+    Vec3 d;   ///< X_i - X_j
+    double w;
+};
+
+/// How floats keep what they find: distances in whole quanta, weights in whole parts of the largest, 16 bits each. The loop waits for
+/// memory, of which a pair then takes 12 bytes with its index instead of 20. Distances that are whole numbers of quanta lose nothing, and any weights will
+/// do that both of a pair have alike.
+struct PairUnits {
+    double distance = 1;   ///< a quantum
+    double weight = 1;     ///< the largest
+
+    static constexpr double most = 32767;
 };
 
 /// One row per particle, as found; the place of a row is its particle.
@@ -98,21 +116,22 @@ class FixedPairs {
 public:
     static constexpr std::size_t lanes = std::size_t(native_lanes<T>);
 
-    /// pair_of(i, j) -> FixedPair<T>; one of weight zero is left out.
+    /// pair_of(i, j) -> FoundPair; one of weight zero is left out. Doubles are kept as they are found.
     template <class PairOf>
-    void make(const FixedRows& rows, PairOf pair_of) {
+    void make(const FixedRows& rows, const PairUnits& units, PairOf pair_of) {
+        distance_unit_ = T(units.distance), weight_unit_ = T(units.weight / PairUnits::most);
         count_ = rows.size();
         start_.assign(1, 0);
         pairs_ = 0;
         index_.reset(0), numbers_.reset(0);
-        std::array<std::vector<std::pair<std::uint32_t, FixedPair<T>>>, lanes> group;
+        std::array<std::vector<std::pair<std::uint32_t, std::array<Stored, 4>>>, lanes> group;
         for (std::size_t first = 0; first < count_; first += lanes) {
             std::size_t longest = 0;
             for (std::size_t l = 0; l < lanes; ++l) {
                 group[l].clear();
                 if (first + l >= count_) continue;
                 for (const std::uint32_t j : rows[first + l])
-                    if (const FixedPair<T> pair = pair_of(std::uint32_t(first + l), j); pair.w != T(0)) group[l].push_back({j, pair});
+                    if (const std::array<Stored, 4> pair = stored(pair_of(std::uint32_t(first + l), j), units); pair[3] != Stored(0)) group[l].push_back({j, pair});
                 pairs_ += group[l].size();
                 longest = std::max(longest, group[l].size());
             }
@@ -122,9 +141,8 @@ public:
                 for (std::size_t l = 0; l < lanes; ++l) {
                     const bool is_padding = k >= group[l].size();   // the particle itself, whose differences vanish
                     index_[filled + k * lanes + l] = is_padding ? std::uint32_t(first + l) : group[l][k].first;
-                    const FixedPair<T> pair = is_padding ? FixedPair<T>{} : group[l][k].second;
-                    T* numbers = &numbers_[4 * (filled + k * lanes) + l];
-                    numbers[0] = pair.wd.x, numbers[lanes] = pair.wd.y, numbers[2 * lanes] = pair.wd.z, numbers[3 * lanes] = pair.w;
+                    for (std::size_t n = 0; n < 4; ++n)
+                        numbers_[4 * (filled + k * lanes) + n * lanes + l] = is_padding ? Stored(0) : group[l][k].second[n];
                 }
             start_.push_back(filled + longest * lanes);
         }
@@ -142,8 +160,7 @@ public:
         for (std::size_t g = 0; g < start_.size() - 1; ++g)
             for (std::size_t l = 0; l < lanes; ++l)
                 for (std::size_t k = start_[g] + l; k < start_[g + 1]; k += lanes) {
-                    const T* n = &numbers_[4 * (k - l) + l];
-                    if (n[3 * lanes] != T(0)) visit(std::uint32_t(g * lanes + l), index_[k], FixedPair<T>{{n[0], n[lanes], n[2 * lanes]}, n[3 * lanes]});
+                    if (const FixedPair<T> pair = pair_at<T>(&numbers_[4 * (k - l) + l]); pair.w != T(0)) visit(std::uint32_t(g * lanes + l), index_[k], pair);
                 }
     }
 
@@ -173,22 +190,43 @@ private:
                     const auto i = load<P>(own, members + lane);
                     std::array<P, Term::sums> sum;
                     for (P& s : sum) s = P(T(0));
-                    const T* numbers = numbers_.data() + 4 * start_[g] + lane;
+                    const Stored* numbers = numbers_.data() + 4 * start_[g] + lane;
                     const std::uint32_t *entry = index_.data() + start_[g] + lane, *end = index_.data() + start_[g + 1];
                     for (; entry < end; entry += lanes, numbers += 4 * lanes) {
-                        const FixedPair<P> pair{{number_at<P>(numbers), number_at<P>(numbers + lanes), number_at<P>(numbers + 2 * lanes)},
-                                                number_at<P>(numbers + 3 * lanes)};
-                        term(pair, i, load<P>(other, entry), sum);
+                        term(pair_at<P>(numbers), i, load<P>(other, entry), sum);
                     }
                     finish(g * lanes + lane, sum);
                 }
             }
         }
     }
+    using Stored = std::conditional_t<sizeof(T) == 4, std::int16_t, double>;
+
+    static std::array<Stored, 4> stored(const FoundPair& pair, const PairUnits& units) {
+        if constexpr (sizeof(T) == 4) {
+            const auto whole = [](double x) { return Stored(std::lrint(x)); };
+            const Vec3 d = (1 / units.distance) * pair.d;
+            return {whole(d.x), whole(d.y), whole(d.z), whole(PairUnits::most / units.weight * pair.w)};
+        } else {
+            const Vec3 wd = pair.w * pair.d;
+            return {wd.x, wd.y, wd.z, pair.w};
+        }
+    }
+    /// A pack of pairs, or a number's single one, from where its wd.x lies.
     template <class P>
-    PATENCY_INLINE static P number_at(const T* from) {
-        if constexpr (std::is_same_v<P, T>) return *from;
-        else return P::load(from);
+    PATENCY_INLINE FixedPair<P> pair_at(const Stored* from) const {
+        std::array<P, 4> n;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if constexpr (sizeof(T) == 4) load_whole(from + k * lanes, n[k]);
+            else if constexpr (std::is_same_v<P, T>) n[k] = from[k * lanes];
+            else n[k] = P::load(from + k * lanes);
+        }
+        if constexpr (sizeof(T) == 4) {
+            const P w = n[3] * P(weight_unit_), scale = w * P(distance_unit_);
+            return {{scale * n[0], scale * n[1], scale * n[2]}, w};
+        } else {
+            return {{n[0], n[1], n[2]}, n[3]};
+        }
     }
     template <class P, std::size_t n>
     PATENCY_INLINE static std::array<Quads<P>, n> load(const std::array<const Quad<T>*, n>& records, const std::uint32_t* index) {
@@ -208,7 +246,8 @@ private:
     std::uint64_t pairs_ = 0;
     std::vector<std::size_t> start_{0};     // of every group, in entries, and the end
     AlignedVector<std::uint32_t> index_;    // of neighbours, side by side
-    AlignedVector<T> numbers_;              // of pairs: by pack of entries wd.x, wd.y, wd.z, w
+    AlignedVector<Stored> numbers_;         // of pairs: by pack of entries wd.x, wd.y, wd.z, w; of floats d.x, d.y, d.z, w in units
+    T distance_unit_ = 1, weight_unit_ = 1;
 };
 
 /// A pack or a number to column[i], column[i + 1] ...

@@ -27,6 +27,9 @@ constexpr double flattest = 1e-3;   // det of the moment over its mean cubed; 1 
 /// Hourglass control is as soft as the metal would be at this multiple of its plastic strain. What it bears in a strut that bends
 /// is curvature, which the flow of the metal should: at 1 it took a fifth of the work of opening a ring of crowns.
 constexpr double strain_ahead = 10;
+/// But no further ahead than this strain: a third of the stress of flow against a mode as large as the distances is what keeps particles
+/// of tissue in their places, which flows by a strain of several.
+constexpr double most_ahead = 1;
 
 /// w: t^3, or steeper t^6.                                                                            THEORY (20.1)
 double weight(SolidWeights weights, double t) {
@@ -41,6 +44,7 @@ public:
     TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics) : SolidBody(solid, numerics), distance_unit_(numerics.spacing) {
         if constexpr (sizeof(T) == 4) displacement_unit_ = numerics.spacing / displacement_quanta_per_spacing;
         is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(), [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
+        if constexpr (sizeof(T) == 4) snap_reference();
         find_pairs();
         make_records();
         correct_gradients();
@@ -104,6 +108,20 @@ private:
         return Frame(low - margin, high + margin, support);
     }
 
+    /// The longest distance of a pair is a whole number of 16 bits in these [m].
+    double reference_quantum() const { return numerics_.kernel().support() / (PairUnits::most - 1); }
+
+    /// Floats keep distances in whole quanta. With places that are whole numbers of them too, what is linear stays so to the last bit; nothing
+    /// moves by more than 5e-5 spacings, the body as it is now with its reference.
+    void snap_reference() {
+        SolidParticles& p = particles();
+        const double q = reference_quantum();
+        for_each_index(p.size(), [&](std::size_t i) {
+            const Vec3 x = p.reference[i], snapped{q * std::round(x.x / q), q * std::round(x.y / q), q * std::round(x.z / q)};
+            p.reference[i] = snapped, p.position[i] += snapped - x;
+        });
+    }
+
     /// Neighbours, and the order of the particles in which they are packed.
     void find_pairs() {
         SolidParticles& p = particles();
@@ -118,11 +136,11 @@ private:
         if (!numerics_.across_gaps) rows = joined(rows, p.reference, nearest_neighbours * numerics_.spacing);
         const std::vector<std::uint32_t> order = find_order(rows, [&](std::uint32_t i) { return p.material[i]; });
         p.take(order);
-        pairs_.make(reordered(rows, order), [&](std::uint32_t i, std::uint32_t j) {
+        const double largest = largest_of(p.size(), [&](std::size_t i) { return p.volume[i] / numerics_.cell(); });
+        pairs_.make(reordered(rows, order), {reference_quantum() / distance_unit_, largest}, [&](std::uint32_t i, std::uint32_t j) {
             const Vec3 d = p.reference[i] - p.reference[j];
             const double w = p.volume[j] / numerics_.cell() * weight(numerics_.weights, std::max(0.0, 1 - norm(d) / support));
-            const Vec3 wd = (w / distance_unit_) * d;
-            return FixedPair<T>{{T(wd.x), T(wd.y), T(wd.z)}, T(w)};
+            return FoundPair{(1 / distance_unit_) * d, w};
         });
     }
 
@@ -226,7 +244,7 @@ private:
         const double a = particles().plastic_strain[i];
         if (a == 0) return elastic_hourglass_[i];
         const auto& law = std::get<J2Plastic>(solid_.materials[std::size_t(particles().material[i])].law);
-        return elastic_hourglass_[i] * law.secant_share(strain_ahead * a);
+        return elastic_hourglass_[i] * law.secant_share(std::min(strain_ahead * a, most_ahead));
     }
 
     /// What hourglass modes have less of since the stress of this step was computed; from now on they are as soft as the metal is.

@@ -234,6 +234,24 @@ double ring_amplitude(const StentPattern& p) {
     return (p.length - p.strut_width - q * gap_between_centrelines(p)) / (1 + q);
 }
 
+StentPattern with_length(const StentPattern& pattern, double length) {
+    const double amplitude = ring_amplitude(pattern), gap = gap_between_centrelines(pattern);
+    const auto with_rings = [&](int rings) {
+        StentPattern p = pattern;
+        p.rings = rings;
+        const double pitches = axial_pitches(p);
+        p.length = (1 + pitches) * amplitude + pitches * gap + p.strut_width;
+        return p;
+    };
+    StentPattern best = with_rings(2);
+    for (int rings = 3; best.length < length; ++rings) {
+        const StentPattern longer = with_rings(rings);
+        if (longer.length - length > length - best.length) break;
+        best = longer;
+    }
+    return best;
+}
+
 StrutCurves make_strut_curves(const StentPattern& p) {
     expect_sizes(p);
     expect_connectors(p);

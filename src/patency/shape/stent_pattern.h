@@ -74,6 +74,10 @@ StrutCurves make_strut_curves(const StentPattern& pattern);
 /// From the lowest tip of a ring's centreline to its highest [m], which follows from length, rings and gap: THEORY (16.2).
 double ring_amplitude(const StentPattern& pattern);
 
+/// With as many rings, two at the least, or turns of a helix as come nearest to this length [m]; they keep their size and their gaps, as those
+/// of a design that is made in several lengths do.
+StentPattern with_length(const StentPattern& pattern, double length);
+
 /// The pattern opened or crimped to another outer diameter: struts keep their length and crowns their radius, so rings
 /// become shorter as they open; connectors keep the gap, so those that lead aside become longer. Kinematics, no
 /// mechanics. Throws GeometryError if the struts are too short or in each other's way.

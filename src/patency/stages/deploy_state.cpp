@@ -22,6 +22,13 @@ std::vector<double> von_mises_of(SolidPart& part) {
     return stress;
 }
 
+bool yields(const SolidMaterial& material) { return std::holds_alternative<J2Plastic>(material.law); }
+
+bool yields(const SolidPart& part) {
+    const auto& materials = part.body->solid().materials;
+    return std::any_of(materials.begin(), materials.end(), [](const SolidMaterial& m) { return yields(m); });
+}
+
 /// What both bodies' surfaces show.
 PolyData skin_of(SolidPart& part) {
     SolidSurface& surface = *part.surface;
@@ -36,6 +43,12 @@ PolyData skin_of(SolidPart& part) {
     }
     for (double& s : stress.values) s = std::max(0.0, s);   // a linear fit may go below
     data.arrays = {std::move(displacement), std::move(stress)};
+    if (yields(part)) {
+        const SolidParticles& p = part.body->particles();
+        PointArray strain{"plastic_strain", "1", 1, surface.carried({p.plastic_strain.begin(), p.plastic_strain.end()})};
+        for (double& s : strain.values) s = std::max(0.0, s);
+        data.arrays.push_back(std::move(strain));
+    }
     return data;
 }
 
@@ -67,10 +80,6 @@ BodyEnergy energy_of(SolidPart& part) {
 
 PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen) {
     PolyData data = skin_of(stent);
-    const SolidParticles& p = stent.body->particles();
-    PointArray strain{"plastic_strain", "1", 1, stent.surface->carried({p.plastic_strain.begin(), p.plastic_strain.end()})};
-    for (double& s : strain.values) s = std::max(0.0, s);
-    data.arrays.push_back(std::move(strain));
     if (lumen) {
         PointArray gap{"gap", "m", 1, std::vector<double>(data.points.size())};
         for (std::size_t v = 0; v < data.points.size(); ++v) gap.values[v] = -lumen->value(data.points[v]);
@@ -84,13 +93,15 @@ PolyData wall_picture(SolidPart& wall) { return skin_of(wall); }
 Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length, const std::vector<Contact::Push>& pushes) {
     const std::vector<double> wall_stress = von_mises_of(wall);
     const SolidParticles& w = wall.body->particles();
-    Json layers = Json::object();
+    Json layers = Json::object(), strains = Json::object();
     for (const WallLayer layer : {WallLayer::plaque, WallLayer::media, WallLayer::adventitia}) {
-        std::vector<double> stress, volume;
+        std::vector<double> stress, strain, volume;
         for (std::size_t i = 0; i < w.size(); ++i)
             if (w.material[i] == std::int32_t(layer) && std::abs(axis.coordinates(w.position[i]).along) < length / 2)
-                stress.push_back(wall_stress[i]), volume.push_back(w.volume[i]);
-        if (!stress.empty()) layers[std::string(name_of(layer))] = percentiles(stress, volume);
+                stress.push_back(wall_stress[i]), strain.push_back(w.plastic_strain[i]), volume.push_back(w.volume[i]);
+        if (stress.empty()) continue;
+        layers[std::string(name_of(layer))] = percentiles(stress, volume);
+        if (yields(wall.body->solid().materials[std::size_t(layer)])) strains[std::string(name_of(layer))] = percentiles(strain, volume);
     }
     const SolidParticles& s = stent.body->particles();
     const std::vector<double> volume(s.volume.begin(), s.volume.end());
@@ -100,6 +111,7 @@ Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, dou
         if (a > 0 && norm(push.force) > 0) pressure.push_back(norm(push.force) / a), area.push_back(a);
     }
     return {{"wall_von_mises_pa", layers},
+            {"wall_plastic_strain", strains},
             {"stent_von_mises_pa", percentiles(von_mises_of(stent), volume)},
             {"plastic_strain", percentiles({s.plastic_strain.begin(), s.plastic_strain.end()}, volume)},
             {"contact_pressure_pa", percentiles(pressure, area)}};

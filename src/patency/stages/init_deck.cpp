@@ -151,26 +151,19 @@ std::vector<ShortEnd> find_short_ends(const Vessel& vessel) {
     return ends;
 }
 
-/// Its nominal diameter is nearest to the healthy one, within a fifth of it; of these the shortest that covers the lesion, or the longest.
+/// Its nominal diameter is nearest to the healthy one, within a fifth of it; it is the shortest that reaches into healthy vessel on both sides.
 std::optional<StentProposal> propose_stent(const VesselAlong& along) {
     if (along.assessment.lesions.empty()) return {};
     const Lesion& lesion = along.assessment.lesions.front();
     const double healthy = lesion.interpolated.diameter;
-    const StentDesign* best = nullptr;
     const auto misfit = [&](const StentDesign& d) { return std::abs(d.pattern.nominal_diameter - healthy); };
-    const auto is_better = [&](const StentDesign& a, const StentDesign& b) {
-        if (misfit(a) != misfit(b)) return misfit(a) < misfit(b);
-        const bool a_covers = a.pattern.length >= lesion.length(), b_covers = b.pattern.length >= lesion.length();
-        if (a_covers != b_covers) return a_covers;
-        return a_covers ? a.pattern.length < b.pattern.length : a.pattern.length > b.pattern.length;
-    };
-    for (const StentDesign& design : stent_library())
-        if (!best || is_better(design, *best)) best = &design;
-    constexpr double largest_misfit = 0.2;
+    const auto best = std::min_element(stent_library().begin(), stent_library().end(),
+                                       [&](const StentDesign& a, const StentDesign& b) { return misfit(a) < misfit(b); });
+    constexpr double largest_misfit = 0.2, landing = 2e-3;   // landing: m beyond the lesion at each end
     if (misfit(*best) > largest_misfit * healthy) return {};
     const double middle = 0.5 * (lesion.start_arc + lesion.end_arc);
-    return StentProposal{0, best, std::max(0.0, middle - along.lines.start_arc(along.lines.branches[lesion.branch])),
-                         best->pattern.length >= lesion.length()};
+    return StentProposal{0, &*best, with_length(best->pattern, lesion.length() + 2 * landing),
+                         std::max(0.0, middle - along.lines.start_arc(along.lines.branches[lesion.branch]))};
 }
 
 }   // namespace
@@ -209,6 +202,10 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     if (plan.budget_spacing > plan.moving_spacing) plan.cuts = find_cuts(vessel, plan.budget_spacing);
     plan.short_ends = find_short_ends(vessel);
     plan.stent = propose_stent(along);
+    if (plan.stent) {   // what narrows the vessel is plaque
+        plan.config.wall.plaque = deck::Plaque::fills;
+        plan.config.wall.layers.plaque.emplace().name = "fibrous_plaque";
+    }
     plan.with_stent = settings.with_stent;
     if (plan.with_stent && !plan.stent)
         throw GeometryError(along.assessment.lesions.empty() ? "A stent is asked for, and the vessel has no lesion to put it into."

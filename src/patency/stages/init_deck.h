@@ -49,8 +49,8 @@ struct ShortEnd {
 struct StentProposal {
     std::size_t lesion;   ///< in Assessment::lesions
     const StentDesign* design;
-    double arc;    ///< of the lesion's middle, from its branch's start [m]
-    bool covers;   ///< it is as long as the lesion
+    StentPattern pattern;   ///< of the design, as long as it takes
+    double arc;             ///< of the lesion's middle, from its branch's start [m]
 };
 
 struct InitPlan {

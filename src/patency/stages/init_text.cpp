@@ -204,6 +204,14 @@ std::string bed_text(const InitPlan& plan) {
     return text + commented("  venous_pressure: " + quantity(bed.venous_pressure, "mmHg"), "behind the bed");
 }
 
+/// With a stent the wall of a deployment: what narrows the vessel is plaque, which gives way.
+std::string wall_text(const InitPlan& plan) {
+    if (plan.config.wall.plaque == deck::Plaque::none) return commented("wall: {motion: rigid}", "the wall stands still");
+    return commented("wall:", "of the blood rigid; deformable where a stent is opened by contact") + commented("  motion: rigid", "the wall stands still") +
+           commented("  plaque: fills", "of a stent by contact: between the lumen and the healthy one") +
+           commented("  layers: {plaque: {name: " + *plan.config.wall.layers.plaque->name + "}}", "gives way where it is stretched and stays; calcified_plaque: stiff");
+}
+
 std::string stent_text(const Vessel& vessel, const InitPlan& plan) {
     const VesselAlong& along = *vessel.along;
     if (!plan.stent)
@@ -213,12 +221,13 @@ std::string stent_text(const Vessel& vessel, const InitPlan& plan) {
     const StentProposal& s = *plan.stent;
     const Lesion& lesion = along.assessment.lesions[s.lesion];
     std::string text = fmt::format(
-        "# A stent for L{}: {} opens to {:.2f} mm (healthy lumen {:.2f} mm), {:.1f} mm long (lesion {:.1f} mm{}).\n",
+        "# A stent for L{}: {} opens to {:.2f} mm (healthy lumen {:.2f} mm), {:.1f} mm long (lesion {:.1f} mm).\n",
         s.lesion + 1, s.design->name, mm(s.design->pattern.nominal_diameter), mm(lesion.interpolated.diameter),
-        mm(s.design->pattern.length), mm(lesion.length()), s.covers ? "" : ": longer than the stent");
+        mm(s.pattern.length), mm(lesion.length()));
     const std::string in = plan.with_stent ? "" : "# ";
     text += in + "stent:\n";
     text += commented(in + "  design: " + s.design->name, "of the library: patency stent list");
+    text += commented(fmt::format("{}  length: \"{:.1f} mm\"", in, mm(s.pattern.length)), fmt::format("{} rings; with 2 mm of healthy vessel at both ends", s.pattern.rings));
     text += commented(fmt::format("{}  placement: {{branch: {}, arc_length: \"{:.2f} mm\"}}", in,
                                   shown_name(along.lines.branches[lesion.branch].name), mm(s.arc)),
                       "its middle on the lesion's");
@@ -259,7 +268,7 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
     text += commented("  density: " + quantity(c.blood.density, "kg/m^3"), "mass per volume");
     text += commented("  viscosity: " + quantity(c.blood.viscosity, "mPa s"),
                       "Newtonian; laws that thin with shear: carreau_yasuda, casson");
-    text += commented("wall: {motion: rigid}", "the wall stands still");
+    text += wall_text(plan);
     text += openings_text(vessel, plan);
     text += "aorta:\n" + commented("  pressure: " + quantity(*c.aorta.pressure, "mmHg"),
                                    "mean, of 120 over 80; the reference of FFR");

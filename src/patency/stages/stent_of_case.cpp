@@ -9,10 +9,20 @@
 
 namespace patency {
 
+namespace {
+
+void expect_length_of_a_design(const deck::Stent& stent) {
+    if (stent.length && !stent.design) throw DeckError("stent.length: is that of a design of the library; a pattern or a surface has its own");
+}
+
+}   // namespace
+
 StentPattern make_stent_pattern(const deck::Stent& stent) {
     StentPattern pattern;
+    expect_length_of_a_design(stent);
     if (stent.design) {
         pattern = find_stent(*stent.design).pattern;
+        if (stent.length) pattern = with_length(pattern, *stent.length);
     } else if (stent.pattern) {
         const deck::StentPattern& p = *stent.pattern;
         pattern = {.layout = p.layout == deck::StentLayout::helix ? StentLayout::helix : StentLayout::rings,
@@ -49,6 +59,7 @@ std::string alloy_of(const deck::Stent& stent) {
 }
 
 MadeStent make_stent(const deck::Stent& stent) {
+    expect_length_of_a_design(stent);
     if (!stent.surface) {
         StentPattern pattern = make_stent_pattern(stent);
         StentForm form = make_strut_curves(pattern);
