@@ -128,7 +128,7 @@ template <class T, bool is_run, class Law>
     const Mat<P> B = symmetric<P>({lanes.gather(b[0]), lanes.gather(b[1]), lanes.gather(b[2]), lanes.gather(b[3]), lanes.gather(b[4]), lanes.gather(b[5])});
     const Mat<P> H = displacement_gradient(input, lanes, B), F = H + identity<P>();
     const P J = determinant(F);
-    const Mat<P> A = lanes.gather(input.hourglass) * H - stress_of(law, F, lanes, particles) * B;
+    const Mat<P> A = lanes.gather(input.share) * (lanes.gather(input.hourglass) * H - stress_of(law, F, lanes, particles) * B);
     const auto put_row = [&](const Vec<P>& row, std::size_t k) {
         alignas(64) T x[width], y[width], z[width];
         row.x.store(x), row.y.store(y), row.z.store(z);

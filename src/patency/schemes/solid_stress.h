@@ -21,10 +21,11 @@ struct StressInput {
     std::array<AlignedVector<T>, 9> sums;   ///< sum w (u_i - u_j) d^T, by rows, in units of the loop
     SymColumns<T> correction;               ///< B, per unit of distance squared
     AlignedVector<T> hourglass;             ///< c [Pa per unit of distance squared]
+    AlignedVector<T> share;                 ///< of the volume, in the mean of all
     double displacement_scale = 1;          ///< the unit of displacements in that of distances
 };
 
-/// What the loop that sums forces needs of it: A = c (F - 1) - P B.                                     THEORY (20.8)
+/// What the loop that sums forces needs of it: A = v [c (F - 1) - P B].                                  THEORY (20.8)
 template <class T>
 struct StressOutput {
     std::array<AlignedVector<Quad<T>>, 3> rows;   ///< of A, in three of four places

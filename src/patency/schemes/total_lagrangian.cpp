@@ -136,11 +136,13 @@ private:
         if (!numerics_.across_gaps) rows = joined(rows, p.reference, nearest_neighbours * numerics_.spacing);
         const std::vector<std::uint32_t> order = find_order(rows, [&](std::uint32_t i) { return p.material[i]; });
         p.take(order);
+        // The same for both of a pair, also as they are kept: their forces are opposite to the last bit.
+        mean_volume_ = sum_of(p.size(), [&](std::size_t i) { return p.volume[i]; }) / double(p.size());
         const double largest = largest_of(p.size(), [&](std::size_t i) { return p.volume[i] / numerics_.cell(); });
         pairs_.make(reordered(rows, order), {reference_quantum() / distance_unit_, largest}, [&](std::uint32_t i, std::uint32_t j) {
             const Vec3 d = p.reference[i] - p.reference[j];
-            const double w = p.volume[j] / numerics_.cell() * weight(numerics_.weights, std::max(0.0, 1 - norm(d) / support));
-            return FoundPair{(1 / distance_unit_) * d, w};
+            const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell();
+            return FoundPair{(1 / distance_unit_) * d, v * weight(numerics_.weights, std::max(0.0, 1 - norm(d) / support))};
         });
     }
 
@@ -150,7 +152,8 @@ private:
         for (auto& row : stress_.rows) row.reset(padded, zero_record<T>());
         for (auto& column : input_.sums) column.reset(padded, T(0));
         for (auto& column : input_.correction) column.reset(padded, T(0));
-        input_.hourglass.reset(padded, T(0));
+        input_.hourglass.reset(padded, T(0)), input_.share.reset(padded, T(0));
+        for (std::size_t i = 0; i < n; ++i) input_.share[i] = T(particles().volume[i] / mean_volume_);
         if (is_metal_) stretching_.reset(padded, T(0));
         elastic_hourglass_.resize(n), softened_at_.assign(n, 0);
         if (numerics_.viscosity > 0) damping_power_.assign(padded, 0);
@@ -226,7 +229,7 @@ private:
         const double per_unit = 1 / unit;
         return largest_of(p.size(), [&](std::size_t i) {
             const Vec3 u = p.position[i] - p.reference[i], &v = p.velocity[i];
-            displacement_[i] = displacement_record(u, per_unit, scale * input_.hourglass[i]);
+            displacement_[i] = displacement_record(u, per_unit, scale * input_.share[i] * input_.hourglass[i]);
             stress_.rows[0][i].d = T(v.x), stress_.rows[1][i].d = T(v.y), stress_.rows[2][i].d = T(v.z);
             return std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
         });
@@ -285,11 +288,10 @@ private:
     void sum_force() {
         SolidParticles& p = particles();
         const std::array<const Quad<T>*, 4> records = {displacement_.data(), stress_.rows[0].data(), stress_.rows[1].data(), stress_.rows[2].data()};
-        const double per_unit = 1 / distance_unit_;
+        const double scale = mean_volume_ / distance_unit_;
         using Term = solid_terms::Force<is_damped>;
         pairs_.template sum<Term>(records, records, Term{input_.displacement_scale, damping_}, [&](std::size_t first, const auto& s) {
             const auto finish = [&](std::size_t i, const Vec<T>& pairs, T power) {
-                const double scale = p.volume[i] * per_unit;
                 p.force[i] = scale * Vec3{double(pairs.x), double(pairs.y), double(pairs.z)};
                 if constexpr (is_damped) damping_power_[i] = scale * double(power);
             };
@@ -333,7 +335,7 @@ private:
     StressInput<T> input_;
     std::vector<std::vector<std::uint32_t>> members_;  // by material
     std::vector<double> elastic_hourglass_, softened_at_, damping_power_;   // softened_at_: the plastic strain that the hourglass modulus is for
-    double distance_unit_, displacement_unit_ = distance_unit_, damping_ = 0;   // m, m, D of the loop
+    double distance_unit_, displacement_unit_ = distance_unit_, damping_ = 0, mean_volume_ = 0;   // m, m, D of the loop, m^3
     bool is_deformed_ = false, is_metal_ = false;
 };
 
