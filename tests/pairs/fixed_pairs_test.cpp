@@ -21,10 +21,10 @@ const Box box{{-0.01, 0, 0}, {0.01, 0.009, 0.012}};
 
 double weight(const Vec3& a, const Vec3& b) { return std::max(0.0, 1 - norm(a - b) / support); }
 
-/// Floats keep distances in quanta, weights in parts of the largest.
+/// Floats keep distances in quanta, roots of weights in parts of the largest's.
 constexpr double quantum = support / 32000;
 template <class T>
-double kept(double w) { return sizeof(T) == 4 ? std::round(PairUnits::most * w) / PairUnits::most : w; }
+double kept(double w) { return sizeof(T) == 4 ? std::pow(std::round(PairUnits::parts * std::sqrt(w)) / PairUnits::parts, 2) : w; }
 
 /// sum w d, sum w (q_i + q_j), with a further number of both.
 struct Everything {

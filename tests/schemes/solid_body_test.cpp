@@ -163,21 +163,18 @@ TEST(SolidBody, LoopsThreadsAndLanesGiveTheSameBits) {
 TEST(SolidBody, MixedPrecisionFollowsDouble) {
     std::vector<std::vector<Vec3>> forces;
     double scale = 0;
-    std::vector<Vec3> places = block(12, 10, 9, 0.1);
-    for (const Precision precision : {Precision::mixed, Precision::double_precision}) {
+    for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
         Solid solid;
-        fill(solid, places, rubber(), false);
+        fill(solid, block(12, 10, 9, 0.1), rubber(), false);
         const auto body = make_solid_body(solid, numerics(false, precision));
         SolidParticles& p = body->particles();
-        for (std::size_t i = 0; i < places.size() && precision == Precision::mixed; ++i)
-            EXPECT_LT(norm(p.position[i] - p.reference[i]), 1e-15) << "it moved with its reference";
-        places.assign(p.reference.begin(), p.reference.end());   // of mixed precision whole quanta, so that both have the same
         shake(p, 0.03, false);
         look(*body);
         scale = largest(p.force);
+        std::vector<std::pair<Vec3, Vec3>> by_place;   // the orders differ in the last digit of places
         forces.emplace_back(p.force.begin(), p.force.end());
     }
-    for (std::size_t i = 0; i < forces[0].size(); ++i) ASSERT_LT(norm(forces[0][i] - forces[1][i]), 3e-4 * scale) << i;   // weights of 15 bits: another sum of the same order
+    for (std::size_t i = 0; i < forces[0].size(); ++i) EXPECT_LT(norm(forces[0][i] - forces[1][i]), 2e-5 * scale);
 }
 
 TEST(SolidBody, ViscosityTakesEnergyButNothingFromARotation) {

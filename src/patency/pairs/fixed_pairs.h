@@ -42,14 +42,16 @@ struct FoundPair {
     double w;
 };
 
-/// How floats keep what they find: distances in whole quanta, weights in whole parts of the largest, 16 bits each. The loop waits for
-/// memory, of which a pair then takes 12 bytes with its index instead of 20. Distances that are whole numbers of quanta lose nothing, and any weights will
-/// do that both of a pair have alike.
+/// How floats keep what they find: distances in whole quanta, roots of weights in whole parts of the largest's (the root, for most weights are small), 16 bits
+/// each. The loop waits for memory, of which a pair then takes 12 bytes with its index instead of 20. Distances that are whole numbers of quanta lose nothing,
+/// and any weights will do that both of a pair have alike.
 struct PairUnits {
     double distance = 1;   ///< a quantum
     double weight = 1;     ///< the largest
 
-    static constexpr double most = 32767;
+    static constexpr double most = 32767, parts = 65535, lowest = -32768;   // of a distance; of a root, kept from the lowest number up
+
+    double root() const { return std::sqrt(weight) / parts; }
 };
 
 /// One row per particle, as found; the place of a row is its particle.
@@ -119,7 +121,7 @@ public:
     /// pair_of(i, j) -> FoundPair; one of weight zero is left out. Doubles are kept as they are found.
     template <class PairOf>
     void make(const FixedRows& rows, const PairUnits& units, PairOf pair_of) {
-        distance_unit_ = T(units.distance), weight_unit_ = T(units.weight / PairUnits::most);
+        distance_unit_ = T(units.distance), root_unit_ = T(units.root()), no_root_ = T(-PairUnits::lowest) * root_unit_;
         count_ = rows.size();
         start_.assign(1, 0);
         pairs_ = 0;
@@ -131,7 +133,7 @@ public:
                 group[l].clear();
                 if (first + l >= count_) continue;
                 for (const std::uint32_t j : rows[first + l])
-                    if (const std::array<Stored, 4> pair = stored(pair_of(std::uint32_t(first + l), j), units); pair[3] != Stored(0)) group[l].push_back({j, pair});
+                    if (const std::array<Stored, 4> pair = stored(pair_of(std::uint32_t(first + l), j), units); pair[3] != no_weight) group[l].push_back({j, pair});
                 pairs_ += group[l].size();
                 longest = std::max(longest, group[l].size());
             }
@@ -142,7 +144,7 @@ public:
                     const bool is_padding = k >= group[l].size();   // the particle itself, whose differences vanish
                     index_[filled + k * lanes + l] = is_padding ? std::uint32_t(first + l) : group[l][k].first;
                     for (std::size_t n = 0; n < 4; ++n)
-                        numbers_[4 * (filled + k * lanes) + n * lanes + l] = is_padding ? Stored(0) : group[l][k].second[n];
+                        numbers_[4 * (filled + k * lanes) + n * lanes + l] = !is_padding ? group[l][k].second[n] : n < 3 ? Stored(0) : no_weight;
                 }
             start_.push_back(filled + longest * lanes);
         }
@@ -201,12 +203,13 @@ private:
         }
     }
     using Stored = std::conditional_t<sizeof(T) == 4, std::int16_t, double>;
+    static constexpr Stored no_weight = sizeof(T) == 4 ? Stored(PairUnits::lowest) : Stored(0);
 
     static std::array<Stored, 4> stored(const FoundPair& pair, const PairUnits& units) {
         if constexpr (sizeof(T) == 4) {
             const auto whole = [](double x) { return Stored(std::lrint(x)); };
             const Vec3 d = (1 / units.distance) * pair.d;
-            return {whole(d.x), whole(d.y), whole(d.z), whole(PairUnits::most / units.weight * pair.w)};
+            return {whole(d.x), whole(d.y), whole(d.z), whole(PairUnits::lowest + std::sqrt(pair.w) / units.root())};
         } else {
             const Vec3 wd = pair.w * pair.d;
             return {wd.x, wd.y, wd.z, pair.w};
@@ -222,7 +225,7 @@ private:
             else n[k] = P::load(from + k * lanes);
         }
         if constexpr (sizeof(T) == 4) {
-            const P w = n[3] * P(weight_unit_), scale = w * P(distance_unit_);
+            const P root = fma(n[3], P(root_unit_), P(no_root_)), w = root * root, scale = w * P(distance_unit_);
             return {{scale * n[0], scale * n[1], scale * n[2]}, w};
         } else {
             return {{n[0], n[1], n[2]}, n[3]};
@@ -246,8 +249,8 @@ private:
     std::uint64_t pairs_ = 0;
     std::vector<std::size_t> start_{0};     // of every group, in entries, and the end
     AlignedVector<std::uint32_t> index_;    // of neighbours, side by side
-    AlignedVector<Stored> numbers_;         // of pairs: by pack of entries wd.x, wd.y, wd.z, w; of floats d.x, d.y, d.z, w in units
-    T distance_unit_ = 1, weight_unit_ = 1;
+    AlignedVector<Stored> numbers_;         // of pairs: by pack of entries wd.x, wd.y, wd.z, w; of floats d.x, d.y, d.z, root of w in units
+    T distance_unit_ = 1, root_unit_ = 1, no_root_ = 0;
 };
 
 /// A pack or a number to column[i], column[i + 1] ...

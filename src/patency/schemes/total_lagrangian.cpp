@@ -44,7 +44,7 @@ public:
     TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics) : SolidBody(solid, numerics), distance_unit_(numerics.spacing) {
         if constexpr (sizeof(T) == 4) displacement_unit_ = numerics.spacing / displacement_quanta_per_spacing;
         is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(), [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
-        if constexpr (sizeof(T) == 4) snap_reference();
+        snap_reference();
         find_pairs();
         make_records();
         correct_gradients();
@@ -108,11 +108,13 @@ private:
         return Frame(low - margin, high + margin, support);
     }
 
-    /// The longest distance of a pair is a whole number of 16 bits in these [m].
-    double reference_quantum() const { return numerics_.kernel().support() / (PairUnits::most - 1); }
+    /// The spacing over a power of two, so that a lattice stays one, of which 16 bits hold the longest distance of a pair [m].
+    double reference_quantum() const {
+        return numerics_.spacing / std::exp2(std::floor(std::log2(PairUnits::most * numerics_.spacing / numerics_.kernel().support())));
+    }
 
-    /// Floats keep distances in whole quanta. With places that are whole numbers of them too, what is linear stays so to the last bit; nothing
-    /// moves by more than 5e-5 spacings, the body as it is now with its reference.
+    /// Pairs are kept in whole quanta (PairUnits). With places that are whole numbers of them too, what is linear stays so to the last bit; nothing
+    /// moves by more than 1e-4 spacings, the body as it is now with its reference. In both precisions, so that their places are the same.
     void snap_reference() {
         SolidParticles& p = particles();
         const double q = reference_quantum();
@@ -138,12 +140,18 @@ private:
         p.take(order);
         // The same for both of a pair, also as they are kept: their forces are opposite to the last bit.
         mean_volume_ = sum_of(p.size(), [&](std::size_t i) { return p.volume[i]; }) / double(p.size());
-        const double largest = largest_of(p.size(), [&](std::size_t i) { return p.volume[i] / numerics_.cell(); });
-        pairs_.make(reordered(rows, order), {reference_quantum() / distance_unit_, largest}, [&](std::uint32_t i, std::uint32_t j) {
+        const auto find = [&](std::uint32_t i, std::uint32_t j) {
             const Vec3 d = p.reference[i] - p.reference[j];
             const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell();
             return FoundPair{(1 / distance_unit_) * d, v * weight(numerics_.weights, std::max(0.0, 1 - norm(d) / support))};
+        };
+        const FixedRows packed = reordered(rows, order);
+        const double largest = largest_of(p.size(), [&](std::size_t i) {
+            double w = 0;
+            for (const std::uint32_t j : packed[i]) w = std::max(w, find(std::uint32_t(i), j).w);
+            return w;
         });
+        pairs_.make(packed, {reference_quantum() / distance_unit_, largest}, find);
     }
 
     void make_records() {
