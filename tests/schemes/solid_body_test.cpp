@@ -160,6 +160,24 @@ TEST(SolidBody, LoopsThreadsAndLanesGiveTheSameBits) {
     omp_set_num_threads(1);
 }
 
+// Particles of a tube's layers have different volumes; what they do to each other adds up to nothing all the same.
+TEST(SolidBody, ForcesOfUnequalVolumesAddUpToNothing) {
+    for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
+        Solid solid;
+        const std::vector<Vec3> places = block(8, 7, 6, 0.1);
+        fill(solid, places, rubber(), false);
+        for (std::size_t i = 0; i < places.size(); ++i) solid.particles.volume[i] *= 1 + 0.1 * double(i % 4);
+        const auto body = make_solid_body(solid, numerics(false, precision));
+        SolidParticles& p = body->particles();
+        for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT(norm(p.position[i] - p.reference[i]), 1e-12 * spacing) << "places moved, and what they rest from did not";
+        shake(p, 0.03, false);
+        look(*body);
+        double size = 0;
+        for (const Vec3& f : p.force) size += norm(f);
+        EXPECT_LT(norm(total(p.force)), (precision == Precision::mixed ? 1e-6 : 1e-13) * size);
+    }
+}
+
 TEST(SolidBody, MixedPrecisionFollowsDouble) {
     std::vector<std::vector<Vec3>> forces;
     double scale = 0;
