@@ -158,16 +158,17 @@ TEST(RadialTool, ItsWorkIsWhatSolidAndContactGet) {
     EXPECT_NEAR(r.work, to_tube + r.energy + r.friction_loss + r.damping_loss, 0.02 * r.work);
 }
 
-TEST(RadialTool, RadiusGoesAtOneSpeedFromRestToRest) {
-    const auto radius = steady_radius({1, 2, 4}, {1e-3, 3e-3, 2e-3});
+TEST(RadialTool, RadiusGoesFasterAndFasterFromRestToRest) {
+    const auto radius = ramped_radius({1, 2, 4}, {1e-3, 3e-3, 2e-3});
     EXPECT_EQ(radius(0), 1e-3);
-    EXPECT_EQ(radius(1.5), 2e-3);
     EXPECT_EQ(radius(2), 3e-3);
     EXPECT_EQ(radius(9), 2e-3);
-    for (const double t : {1.0, 2.0, 4.0}) EXPECT_LT(std::abs(radius(t + 1e-6) - radius(t - 1e-6)), 1e-10 * 2e-3);
-    double fastest = 0;
-    for (double t = 1; t < 2; t += 1e-3) fastest = std::max(fastest, (radius(t + 1e-6) - radius(t)) / 1e-6);
-    EXPECT_NEAR(fastest, 2e-3 / 0.95, 1e-6);
+    const auto speed = [&](double t) { return (radius(t + 1e-6) - radius(t - 1e-6)) / 2e-6; };
+    for (const double t : {1.0, 2.0, 4.0}) EXPECT_LT(std::abs(speed(t)), 1e-4 * 2e-3);
+    EXPECT_NEAR(speed(1.95 - 2e-6) / speed(1.05 + 2e-6), 3, 1e-3);
+    EXPECT_NEAR(speed(1.5), 0.5 * (speed(1.1) + speed(1.9)), 1e-8);
+    EXPECT_NEAR(speed(3) / speed(1.5), -0.25, 1e-6);   // half the way, in twice the time
+    for (double t = 1; t < 2; t += 1e-3) EXPECT_LT(std::abs(speed(t + 1e-3) - speed(t)), 0.05 * 2e-3);   // no jump anywhere
 }
 
 TEST(RadialTool, GoesOnFromItsState) {

@@ -12,14 +12,17 @@ inline double smooth_rise(double s) {
     return s * s * s * (10 + s * (-15 + 6 * s));
 }
 
-/// From 0 to 1 at one speed, but for the first and the last `share` of the way's time, in which it gathers and loses it: then
-/// little energy of motion stands beside what a driven body has taken up.
-inline double steady_rise(double s, double share = 0.05) {
+/// From 0 to 1, from rest to rest, at a speed that grows evenly from a half to one and a half times the mean: what a driven body
+/// has taken up grows with the way, and its energy of motion should not stand beside it. Gathered and lost in the first and the
+/// last twentieth.                                                                                    THEORY (21.14)
+inline double growing_rise(double s) {
+    constexpr double edge = 0.05, first = 0.5, last = 1.5, slope = (last - first) / (1 - 2 * edge);
+    constexpr double whole = (0.5 * edge) * (first + last) + (1 - 2 * edge) * 0.5 * (first + last);
     s = std::clamp(s, 0.0, 1.0);
-    const double speed = 1 / (1 - share);
-    if (s < share) return 0.5 * speed * s * s / share;
-    if (s > 1 - share) return 1 - 0.5 * speed * (1 - s) * (1 - s) / share;
-    return speed * (s - 0.5 * share);
+    if (s < edge) return 0.5 * first * s * s / edge / whole;
+    if (s > 1 - edge) return 1 - 0.5 * last * (1 - s) * (1 - s) / edge / whole;
+    const double t = s - edge;
+    return (0.5 * first * edge + (first + 0.5 * slope * t) * t) / whole;
 }
 
 }   // namespace patency

@@ -91,12 +91,12 @@ private:
 
 }   // namespace
 
-std::function<double(double)> steady_radius(std::vector<double> times, std::vector<double> radii) {
+std::function<double(double)> ramped_radius(std::vector<double> times, std::vector<double> radii) {
     return [times = std::move(times), radii = std::move(radii)](double t) {
         const auto after = std::size_t(std::upper_bound(times.begin(), times.end(), t) - times.begin());
         if (after == 0) return radii.front();
         if (after == times.size()) return radii.back();
-        return radii[after - 1] + (radii[after] - radii[after - 1]) * steady_rise((t - times[after - 1]) / (times[after] - times[after - 1]));
+        return radii[after - 1] + (radii[after] - radii[after - 1]) * growing_rise((t - times[after - 1]) / (times[after] - times[after - 1]));
     };
 }
 

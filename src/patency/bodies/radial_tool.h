@@ -16,9 +16,8 @@ struct RadialTool {
     std::function<double(double time)> radius;    ///< [m]; continuous
 };
 
-/// A radius through these values [m] at these times [s], constant outside; between two of them it goes at one speed that it
-/// gathers and loses in a twentieth of the time.
-std::function<double(double time)> steady_radius(std::vector<double> times, std::vector<double> radii);
+/// A radius through these values [m] at these times [s], constant outside; between two of them as growing_rise.
+std::function<double(double time)> ramped_radius(std::vector<double> times, std::vector<double> radii);
 
 /// Vertices of the surface against the tool. A vertex's friction is against a wall that moves along the radius only.
 std::unique_ptr<Contact> make_tool_contact(SolidSurface& surface, RadialTool tool, const ContactNumerics& numerics);

@@ -35,7 +35,7 @@ double SolidBody::stable_step() const {
         return modulus / m.density;
     });
     const double h = numerics_.smoothing_ratio * numerics_.spacing;
-    const double gain = selective_ ? selective_->step_gain() : 1.0;
+    const double gain = (selective_ ? selective_->step_gain() : 1.0) * (numerics_.second_order ? second_order_share : 1.0);
     return gain * numerics_.cfl * h / (std::sqrt(fastest) * (1 + numerics_.viscosity));
 }
 
@@ -125,17 +125,25 @@ void SolidBody::kick_constrained(double dt, double time) {
     }
 }
 
-double SolidBody::find_present_frequency_squared(double dt) {
-    SolidParticles& p = particles();
-    const bool is_first = old_force_.empty();
-    old_force_.resize(p.size());
-    double stiffness = 0, mass = 0;
-    if (!is_first) {
-        stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(p.velocity[i], p.force[i] - old_force_[i]); }) / dt;
-        mass = 2 * kinetic();
+double SolidBody::find_present_frequency(double dt) {
+    const SolidParticles& p = particles();
+    Motion& m = motion_;
+    if (m.place.empty()) m.place.resize(p.size()), m.force.resize(p.size());
+    for_each_index(p.size(), [&](std::size_t i) { m.place[i] += p.position[i], m.force[i] += p.force[i]; });
+    if (++m.steps < m.steps_of_mean) return m.frequency;
+    const double share = 1.0 / m.steps;
+    for_each_index(p.size(), [&](std::size_t i) { m.place[i] *= share, m.force[i] *= share; });
+    if (!m.place_before.empty()) {
+        const auto way = [&](std::size_t i) { return m.place[i] - m.place_before[i]; };
+        const double stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(way(i), m.force[i] - m.force_before[i]); });
+        const double mass = sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(way(i), way(i)); });
+        m.frequency = mass > 0 && stiffness > 0 ? std::sqrt(stiffness / mass) : 0.0;
+        const double wanted = m.frequency > 0 ? turn_in_mean / (m.frequency * dt) : m.steps;
+        m.steps_of_mean = int(std::clamp(wanted, std::max<double>(least_steps_of_mean, m.steps / 2), 2.0 * m.steps));
     }
-    for_each_index(p.size(), [&](std::size_t i) { old_force_[i] = p.force[i]; });
-    return mass > 0 && stiffness > 0 ? stiffness / mass : 0.0;
+    m.place_before = std::move(m.place), m.force_before = std::move(m.force);
+    m.place.clear(), m.force.clear(), m.steps = 0;
+    return m.frequency;
 }
 
 Mat3 SolidBody::cauchy(std::size_t i) const {
@@ -184,21 +192,24 @@ SolidEnergy SolidBody::energy() {
 }
 
 std::vector<double> SolidBody::state() const {
-    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, old_force_.empty() ? 0.0 : 1.0, momentum_.empty() ? 0.0 : 1.0};
-    const auto add = [&](const std::vector<Vec3>& vectors) {
-        for (const Vec3& v : vectors) state.insert(state.end(), {v.x, v.y, v.z});
-    };
-    add(reactions_), add(old_force_), add(momentum_);
+    const Motion& m = motion_;
+    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, m.frequency, double(m.steps), double(m.steps_of_mean)};
+    for (const std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.place, &m.force, &m.place_before, &m.force_before}) {
+        state.push_back(double(vectors->size()));
+        for (const Vec3& v : *vectors) state.insert(state.end(), {v.x, v.y, v.z});
+    }
     return state;
 }
 
 void SolidBody::restore(std::span<const double> state) {
+    Motion& m = motion_;
     const double* at = state.data();
-    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_}) *x = *at++;
-    old_force_.resize(*at++ != 0 ? particles().size() : 0);
-    momentum_.resize(*at++ != 0 ? particles().size() : 0);
-    for (std::vector<Vec3>* vectors : {&reactions_, &old_force_, &momentum_})
+    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency}) *x = *at++;
+    m.steps = int(*at++), m.steps_of_mean = int(*at++);
+    for (std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.place, &m.force, &m.place_before, &m.force_before}) {
+        vectors->resize(std::size_t(*at++));
         for (Vec3& v : *vectors) v = {at[0], at[1], at[2]}, at += 3;
+    }
 }
 
 void SolidBody::find_selective_mass() {

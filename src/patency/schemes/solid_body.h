@@ -18,15 +18,14 @@
 
 namespace patency {
 
-/// How fast neighbours count for less: as t^3, or as t^6, which resolves bending better with few particles across a part and
-/// bears a step a sixth shorter.                                                                        THEORY (20.1)
-enum class SolidWeights { smooth, steep };
+/// Of the step, where F is of second order: its stiffest mode is that much stiffer.                      THEORY (20.18)
+inline constexpr double second_order_share = 0.9;
 
 /// Numbers of the scheme. Their reasons stand where they are used.
 struct SolidNumerics {
     double spacing = 0;              ///< dp [m]
     double smoothing_ratio = 1.15;   ///< h / dp
-    SolidWeights weights = SolidWeights::smooth;
+    bool second_order = false;       ///< F also beside a surface, where neighbours stand on one side; half as much work again   THEORY (20.18)
     bool planar = false;             ///< plane strain, z = 0
     bool across_gaps = true;         ///< whether particles are neighbours that no third one joins
     double cfl = 0.6;                ///< of the P-wave over h
@@ -67,9 +66,10 @@ public:
     virtual void compute_force(double time) = 0;
     /// v += dt (force + load) / mass - dt drag v, over the step that begins at `time`; constrained axes take their velocity.
     void kick(double dt, double time, double drag = 0);
-    /// The squared frequency [1/s^2] at which the body answers to its present motion: Rayleigh's quotient of the last two
-    /// forces, dt apart; for adaptive relaxation, once in every step after compute_force. Zero at first.   THEORY (20.14)
-    double find_present_frequency_squared(double dt);
+    /// The circular frequency [1/s] of the slow mode that moves at present: Rayleigh's quotient of how places and forces changed
+    /// between two means. For adaptive relaxation, once in every step after compute_force; zero at first.   THEORY (20.14)
+    double find_present_frequency(double dt);
+    void forget_motion() { motion_ = {}; }   ///< where it is not relaxed
 
     /// F of the particles where they are now; compute_force does it too. A step leaves F of its middle. Throws DivergedError
     /// as compute_force does, at the time of the last drift.
@@ -116,7 +116,17 @@ private:
     double kinetic() const;
 
     std::vector<std::vector<std::uint32_t>> constrained_;   // particles, by constraint
-    std::vector<Vec3> reactions_, old_force_;
+    std::vector<Vec3> reactions_;
+    // Of the motion that is to be relaxed. A mean lasts as long as the slow mode turns by a third; what trembles goes to and fro
+    // in it many times.
+    static constexpr double turn_in_mean = 0.3;
+    static constexpr int least_steps_of_mean = 8;
+    struct Motion {
+        std::vector<Vec3> place, force;                 // sums over the steps of this mean
+        std::vector<Vec3> place_before, force_before;   // means before
+        int steps = 0, steps_of_mean = least_steps_of_mean;
+        double frequency = 0;   // between the last two means [1/s]
+    } motion_;
     std::optional<SelectiveMass> selective_;
     std::vector<Vec3> momentum_, middle_momentum_, old_velocity_;   // of a body with selective mass
     double viscous_ = 0, drag_ = 0, load_work_ = 0, constraint_work_ = 0;

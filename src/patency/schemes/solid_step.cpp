@@ -33,7 +33,8 @@ void fast_step(SolidSystem& system, double time, double dt, int k) {
             const double stride = part->stride * dt;
             body.drift(0.5 * stride, time + 0.5 * stride);
             body.compute_force(time + 0.5 * stride);
-            part->drag = system.is_relaxed ? 2 * std::sqrt(body.find_present_frequency_squared(stride)) : 0;
+            if (!system.is_relaxed) body.forget_motion();
+            part->drag = system.is_relaxed ? 2 * body.find_present_frequency(stride) : 0;
             if (part->stride > 1) body.drift(0.5 * (dt - stride), middle);
         } else {
             body.drift(0.5 * dt, middle);

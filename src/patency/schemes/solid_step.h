@@ -51,7 +51,7 @@ int strides_in_step(const SolidSystem& system);
 void solid_step(SolidSystem& system, double time, double dt);
 
 /// Steps of a stent's ramp for less than 5 % of kinetic over internal energy after its first tenth: a ring of crowns opened from
-/// 2.0 to 3.3 mm in these has 4.8 %, and the share falls as 1 over their square.                    THEORY (20.17)
-inline constexpr double least_steps_of_ramp = 50000;
+/// 2.0 to 3.3 mm in these has 4.7 %, and the share falls as 1 over their square.                    THEORY (20.17)
+inline constexpr double least_steps_of_ramp = 45000;
 
 }   // namespace patency

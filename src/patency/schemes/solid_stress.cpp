@@ -40,13 +40,17 @@ struct Lanes {
     }
 };
 
-/// F - 1 of a pack of particles.
+/// A matrix of columns, by rows.
+template <class T, bool is_run>
+Mat<Pack<T>> gather(const std::array<AlignedVector<T>, 9>& columns, const Lanes<T, is_run>& lanes) {
+    const auto at = [&](std::size_t k) { return lanes.gather(columns[k]); };
+    return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8)}};
+}
+
+/// F - 1 of a pack of particles, as it fits.
 template <class T, bool is_run>
 Mat<Pack<T>> displacement_gradient(const StressInput<T>& input, const Lanes<T, is_run>& lanes, const Mat<Pack<T>>& B) {
-    using P = Pack<T>;
-    std::array<P, 9> s;
-    for (std::size_t k = 0; k < 9; ++k) s[k] = number<P>(input.displacement_scale) * lanes.gather(input.sums[k]);
-    return Mat<P>{{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[6], s[7], s[8]}} * B;
+    return (number<Pack<T>>(input.displacement_scale) * gather(input.sums, lanes)) * B;
 }
 
 /// An elastic law's P for all lanes at once.
@@ -126,9 +130,12 @@ template <class T, bool is_run, class Law>
     constexpr std::size_t width = std::size_t(P::lanes);
     const auto& b = input.correction;
     const Mat<P> B = symmetric<P>({lanes.gather(b[0]), lanes.gather(b[1]), lanes.gather(b[2]), lanes.gather(b[3]), lanes.gather(b[4]), lanes.gather(b[5])});
-    const Mat<P> H = displacement_gradient(input, lanes, B), F = H + identity<P>();
+    const Mat<P> H = displacement_gradient(input, lanes, B);
+    const bool is_second_order = input.is_second_order();
+    const Mat<P> F = identity<P>() + (is_second_order ? number<P>(1.5) * H - number<P>(0.5) * (gather(input.around, lanes) * B) : H);
     const P J = determinant(F);
-    const Mat<P> A = lanes.gather(input.share) * (lanes.gather(input.hourglass) * H - stress_of(law, F, lanes, particles) * B);
+    const Mat<P> PB = stress_of(law, F, lanes, particles) * B;
+    const Mat<P> A = lanes.gather(input.share) * (is_second_order ? PB : lanes.gather(input.hourglass) * H - PB);
     const auto put_row = [&](const Vec<P>& row, std::size_t k) {
         alignas(64) T x[width], y[width], z[width];
         row.x.store(x), row.y.store(y), row.z.store(z);
@@ -169,18 +176,23 @@ std::uint32_t compute_stress(const SolidMaterial& material, const std::vector<st
 }
 
 template <class T>
+Mat3 fitted_gradient(const StressInput<T>& input, std::size_t i) {
+    return identity<double>() + input.displacement_scale * (matrix_at(input.sums, i) * correction_at(input, i));
+}
+
+template <class T>
 Mat3 deformation_gradient(const StressInput<T>& input, std::size_t i) {
-    std::array<double, 9> s;
-    std::array<double, 6> b;
-    for (std::size_t k = 0; k < 9; ++k) s[k] = input.displacement_scale * double(input.sums[k][i]);
-    for (std::size_t k = 0; k < 6; ++k) b[k] = double(input.correction[k][i]);
-    return identity<double>() + Mat3{{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[6], s[7], s[8]}} * symmetric(b);
+    const Mat3 fitted = fitted_gradient(input, i);
+    if (!input.is_second_order()) return fitted;
+    return 1.5 * fitted - 0.5 * (identity<double>() + matrix_at(input.around, i) * correction_at(input, i));
 }
 
 template std::uint32_t compute_stress<float>(const SolidMaterial&, const std::vector<std::uint32_t>&, const StressInput<float>&,
                                              SolidParticles&, StressOutput<float>&);
 template std::uint32_t compute_stress<double>(const SolidMaterial&, const std::vector<std::uint32_t>&, const StressInput<double>&,
                                               SolidParticles&, StressOutput<double>&);
+template Mat3 fitted_gradient<float>(const StressInput<float>&, std::size_t);
+template Mat3 fitted_gradient<double>(const StressInput<double>&, std::size_t);
 template Mat3 deformation_gradient<float>(const StressInput<float>&, std::size_t);
 template Mat3 deformation_gradient<double>(const StressInput<double>&, std::size_t);
 

@@ -32,6 +32,20 @@ struct Deformation {
     }
 };
 
+/// sum w (X_j d) d^T of a matrix X that every particle has: times B its mean around i.               THEORY (20.18)
+struct Surroundings {
+    static constexpr std::size_t own_quads = 1, quads = 3, sums = 9;
+    template <class P>
+    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>&, const std::array<Quads<P>, 3>& X, std::array<P, sums>& sum) const {
+        const Vec<P>& wd = pair.wd;
+        const P unweighted = number<P>(1) / max(pair.w, number<P>(1e-30));   // the particle itself pads its row
+        for (std::size_t k = 0; k < 3; ++k) {
+            const P along = unweighted * fma(X[k].a, wd.x, fma(X[k].b, wd.y, X[k].c * wd.z));
+            sum[3 * k] = fma(along, wd.x, sum[3 * k]), sum[3 * k + 1] = fma(along, wd.y, sum[3 * k + 1]), sum[3 * k + 2] = fma(along, wd.z, sum[3 * k + 2]);
+        }
+    }
+};
+
 /// sum w |u_i - u_j|^2, for the energy of hourglass modes.                                            THEORY (20.7)
 struct Stretching {
     static constexpr std::size_t own_quads = 1, quads = 1, sums = 1;

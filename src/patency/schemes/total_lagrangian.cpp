@@ -31,12 +31,6 @@ constexpr double strain_ahead = 10;
 /// of tissue in their places, which flows by a strain of several.
 constexpr double most_ahead = 1;
 
-/// w: t^3, or steeper t^6.                                                                            THEORY (20.1)
-double weight(SolidWeights weights, double t) {
-    const double t3 = t * t * t;
-    return weights == SolidWeights::steep ? t3 * t3 : t3;
-}
-
 /// Distances are in spacings, displacements in fixed point where numbers are floats.
 template <class T>
 class TotalLagrangianBody final : public SolidBody {
@@ -68,6 +62,7 @@ public:
         for (std::size_t m = 0; m < members_.size(); ++m)
             inside_out = std::min(inside_out, compute_stress(solid_.materials[m], members_[m], input_, particles(), stress_));
         if (inside_out != no_particle) report_inside_out(inside_out, time);
+        if (numerics_.second_order) lead_stress_back();
         if (is_metal_) soften_hourglass();
         if (numerics_.viscosity > 0) sum_force<true>();
         else sum_force<false>();
@@ -80,17 +75,19 @@ public:
     std::vector<double> state() const override {
         std::vector<double> state = SolidBody::state();
         state.insert(state.end(), {displacement_unit_, input_.displacement_scale, is_deformed_ ? 1.0 : 0.0});
-        for (const auto& column : input_.sums)
-            for (std::size_t i = 0; i < particles().size(); ++i) state.push_back(double(column[i]));
+        for (const auto* columns : {&input_.sums, &input_.around})
+            for (const auto& column : *columns)
+                for (std::size_t i = 0; i < std::min(particles().size(), column.size()); ++i) state.push_back(double(column[i]));
         return state;
     }
     void restore(std::span<const double> state) override {
         SolidBody::restore(state);
         const std::size_t n = particles().size();
-        const double* at = state.data() + state.size() - 9 * n - 3;
+        const double* at = state.data() + state.size() - (numerics_.second_order ? 18 : 9) * n - 3;
         displacement_unit_ = *at++, input_.displacement_scale = *at++, is_deformed_ = *at++ != 0;
-        for (auto& column : input_.sums)
-            for (std::size_t i = 0; i < n; ++i) column[i] = T(*at++);
+        for (auto* columns : {&input_.sums, &input_.around})
+            for (auto& column : *columns)
+                for (std::size_t i = 0; i < std::min(n, column.size()); ++i) column[i] = T(*at++);
         for (std::size_t i = 0; i < n; ++i) input_.hourglass[i] = T(hourglass_modulus(i)), softened_at_[i] = particles().plastic_strain[i];
     }
 
@@ -142,8 +139,8 @@ private:
         mean_volume_ = sum_of(p.size(), [&](std::size_t i) { return p.volume[i]; }) / double(p.size());
         const auto find = [&](std::uint32_t i, std::uint32_t j) {
             const Vec3 d = p.reference[i] - p.reference[j];
-            const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell();
-            return FoundPair{(1 / distance_unit_) * d, v * weight(numerics_.weights, std::max(0.0, 1 - norm(d) / support))};
+            const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell(), t = std::max(0.0, 1 - norm(d) / support);
+            return FoundPair{(1 / distance_unit_) * d, v * t * t * t};
         };
         const FixedRows packed = reordered(rows, order);
         const double largest = largest_of(p.size(), [&](std::size_t i) {
@@ -163,6 +160,11 @@ private:
         input_.hourglass.reset(padded, T(0)), input_.share.reset(padded, T(0));
         for (std::size_t i = 0; i < n; ++i) input_.share[i] = T(particles().volume[i] / mean_volume_);
         if (is_metal_) stretching_.reset(padded, T(0));
+        if (numerics_.second_order) {
+            for (auto& column : input_.around) column.reset(padded, T(0));
+            for (auto& column : stress_around_) column.reset(padded, T(0));
+            for (auto& row : gradient_) row.reset(padded, zero_record<T>());
+        }
         elastic_hourglass_.resize(n), softened_at_.assign(n, 0);
         if (numerics_.viscosity > 0) damping_power_.assign(padded, 0);
     }
@@ -276,13 +278,41 @@ private:
         std::array<double, 9> u;   // sum w (u_i - u_j) d^T
         for (std::size_t k = 0; k < 9; ++k) u[k] = input_.displacement_scale * double(input_.sums[k][i]);
         const Mat3 S{{u[0], u[1], u[2]}, {u[3], u[4], u[5]}, {u[6], u[7], u[8]}};
-        return input_.displacement_scale * input_.displacement_scale * stretching - double_dot(deformation(i) - identity<double>(), S);
+        return input_.displacement_scale * input_.displacement_scale * stretching - double_dot(fitted_gradient(input_, i) - identity<double>(), S);
     }
 
     void sum_deformation() {
         if (is_metal_) sum_deformation_of<true>();
         else sum_deformation_of<false>();
+        if (numerics_.second_order) {
+            for_each_index(particles().size(), [&](std::size_t i) { put_rows(gradient_, i, fitted_gradient(input_, i) - identity<double>()); });
+            sum_around(gradient_, input_.around);
+        }
         is_deformed_ = true;
+    }
+    using Rows = std::array<AlignedVector<Quad<T>>, 3>;
+    static void put_rows(Rows& rows, std::size_t i, const Mat3& m) {
+        const std::array<const Vec3*, 3> from = {&m.x, &m.y, &m.z};
+        for (std::size_t k = 0; k < 3; ++k) rows[k][i].a = T(from[k]->x), rows[k][i].b = T(from[k]->y), rows[k][i].c = T(from[k]->z);
+    }
+    static Mat3 rows_at(const Rows& rows, std::size_t i) {
+        const auto row = [&](std::size_t k) { return Vec3{double(rows[k][i].a), double(rows[k][i].b), double(rows[k][i].c)}; };
+        return {row(0), row(1), row(2)};
+    }
+    void sum_around(const Rows& rows, std::array<AlignedVector<T>, 9>& around) {
+        pairs_.template sum<solid_terms::Surroundings>({rows[0].data()}, {rows[0].data(), rows[1].data(), rows[2].data()}, {}, [&](std::size_t i, const auto& s) {
+            for (std::size_t k = 0; k < 9; ++k) store(s[k], &around[k][i]);
+        }, numerics_.loop);
+    }
+
+    /// F of second order depends on that of the neighbours, so that their stress works on this particle's too: from v P B the A of
+    /// the forces.                                                                                 THEORY (20.19)
+    void lead_stress_back() {
+        sum_around(stress_.rows, stress_around_);
+        for_each_index(particles().size(), [&](std::size_t i) {
+            const Mat3 PB = 1.5 * rows_at(stress_.rows, i) - 0.5 * (matrix_at(stress_around_, i) * correction_at(input_, i));
+            put_rows(stress_.rows, i, double(input_.share[i]) * double(input_.hourglass[i]) * rows_at(gradient_, i) - PB);
+        });
     }
     template <bool is_metal>
     void sum_deformation_of() {
@@ -339,6 +369,8 @@ private:
     FixedPairs<T> pairs_;
     AlignedVector<Quad<T>> displacement_;   // (u, hourglass modulus)
     AlignedVector<T> stretching_;           // sum w |u_i - u_j|^2, of metals
+    Rows gradient_;                                   // F - 1 as it fits, of a body of second order
+    std::array<AlignedVector<T>, 9> stress_around_;   // sum w (v P B of j, d) d^T
     StressOutput<T> stress_;                // with a component of the velocity as fourth of each row
     StressInput<T> input_;
     std::vector<std::vector<std::uint32_t>> members_;  // by material

@@ -39,15 +39,15 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     if (is_crimped) {
         add(DeployPhase::crimp, way);
         add(DeployPhase::release, release * ramp);
-        program.crimper = steady_radius({0, way, time}, {cut, crimped, 1.2 * cut});
+        program.crimper = ramped_radius({0, way, time}, {cut, crimped, 1.2 * cut});
     } else {
-        program.crimper = steady_radius({0}, {2 * opened});
+        program.crimper = ramped_radius({0}, {2 * opened});
     }
     if (deployment.predilation) {
         if (!is_crimped) add(DeployPhase::release, way);   // while nothing happens to the stent
         const double small = 0.25 * std::min(place.narrowest, *deployment.predilation), wide = *deployment.predilation / 2, from = time;
         add(DeployPhase::enter, entering * ramp);
-        program.predilation = steady_radius({0, from, time}, {small, wide, folded});   // and hands the wall over to the folded balloon
+        program.predilation = ramped_radius({0, from, time}, {small, wide, folded});   // and hands the wall over to the folded balloon
     }
     program.open_from = time;
     add(DeployPhase::open, ramp);
@@ -55,7 +55,7 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     add(DeployPhase::hold, holding * ramp);
     const double deflate_from = time;
     add(DeployPhase::deflate, deflating * ramp);
-    program.balloon = steady_radius({program.open_from, program.open_to, deflate_from, time}, {folded, full, full, folded});
+    program.balloon = ramped_radius({program.open_from, program.open_to, deflate_from, time}, {folded, full, full, folded});
     add(DeployPhase::settle, settling * ramp);
     return program;
 }

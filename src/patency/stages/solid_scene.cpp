@@ -115,7 +115,7 @@ RadialTool make_radial_tool(const deck::RadialToolDeck& said) {
     return {.kind = said.type == deck::RadialToolType::balloon ? RadialTool::Kind::balloon : RadialTool::Kind::crimper,
             .axis = StentAxis(motion_along(way, 0.5 * (said.from + said.to))),
             .length = norm(way),
-            .radius = steady_radius(said.times, radii)};
+            .radius = ramped_radius(said.times, radii)};
 }
 
 /// Linear between, constant outside.

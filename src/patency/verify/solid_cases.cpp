@@ -151,7 +151,7 @@ void thick_tube_figures(const Results& results, FigureList& figures) {
     figures.add({"largest_stretch", "1", {}}, {"nu45_8"}, [&] { return largest_in(results["nu45_8"], "stretch"); });
 }
 
-/// Led by its inner radius to collapse, or loaded to a pressure and released.
+/// Loaded to its collapse, or loaded to a pressure and released.
 void measure_plastic_tube(const deck::Case& config, const std::string& run, const Stop& interrupted, RunData& data) {
     const auto scene = build_solids(config);
     SolidPart& part = *scene->system.parts[0];
@@ -160,14 +160,13 @@ void measure_plastic_tube(const deck::Case& config, const std::string& run, cons
     const double A = 0.5 * shape.inner_diameter, B = 0.5 * shape.diameter, T = config.numerics.duration;
     const auto& metal = std::get<J2Plastic>(part.solid.materials[0].law);
     const double yield = metal.hardening.yield, collapse = collapse_pressure(A, B, yield);
-    double pressure = 0, largest = 0;
+    double largest = 0;
     if (run.starts_with("collapse")) {
-        // The pressure follows the difference of the radius from a leading one, twenty times as stiffly as the tube.
-        const double to = 6 * yield / metal.elastic.young() * A, stiffness = 20 * metal.elastic.young() / A;
-        part.pressures = {{tube.inner, [&](double) { return pressure; }}};
+        // The pressure rises evenly until the radius runs away: where it has gone six times as far as when the inner face yields, and ends there.
+        const double away = A + 6 * yield / metal.elastic.young() * A;
+        part.pressures = {{tube.inner, [&](double time) { return largest > 0 ? 0.0 : 1.2 * collapse * time / T; }}};
         run_to(*scene, T, interrupted, [&] {
-            pressure = std::max(0.0, stiffness * (A + to * scene->time / T - tube.radius()));
-            largest = std::max(largest, pressure);
+            if (largest == 0 && tube.radius() > away) largest = part.pressures[0].pressure(scene->time);
         });
         data.lists["collapse_error_percent"] = {100 * std::abs(largest / collapse - 1)};
         double least = INFINITY;
