@@ -101,6 +101,20 @@ TEST_F(Run, AStentThatCannotGoThereIsRefusedBeforeTheFlow) {
     EXPECT_FALSE(fs::exists(out() / "before/summary.json"));
 }
 
+TEST_F(Run, CheckRefusesAMaterialThatNobodyKnows) {
+    const auto check = [&](const std::string& layer, const std::string& metal) {
+        return patency(fmt::format("check {} --set deployment.mode=balloon --set stent.material.name={} --set wall.plaque=fills "
+                                   "--set 'wall.layers.plaque.name={}'", deck().string(), metal, layer));
+    };
+    const Result right = check("fibrous_plaque", "L605");
+    EXPECT_EQ(right.exit_code, 0) << right.output;
+    EXPECT_NE(right.output.find("particles of stent"), std::string::npos) << right.output;
+    for (const Result& wrong : {check("fibrous_plaqe", "L605"), check("fibrous_plaque", "L650")}) {
+        EXPECT_EQ(wrong.exit_code, 3) << wrong.output;
+        EXPECT_NE(wrong.output.find("Did you mean"), std::string::npos) << wrong.output;
+    }
+}
+
 TEST_F(Run, AnotherDeckInTheFolderIs8AndWrongStagesAre2) {
     EXPECT_EQ(run("--stages befor").exit_code, 2);
     EXPECT_EQ(run("--stages after").exit_code, 2);   // there is no deployment yet

@@ -23,6 +23,7 @@ DeployPlan plan_deploy(const deck::Case& config, int threads) {
     DeployPlan plan{.place = place_stent(config, vessel)};
     const StentPlace& place = plan.place;
     if (config.deployment.mode == deck::DeploymentMode::geometric) return plan;
+    wall_materials(config.wall), stent_material(*config.stent, place.pattern);   // refuse what they do not know
     const double thickness = config.wall.thickness.value_or(coronary_wall_thickness(place.reference_diameter));
     plan.wall_spacing = config.wall.spacing.value_or(usual_wall_spacing(thickness));
     plan.stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(place.form));

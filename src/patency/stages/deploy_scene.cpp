@@ -46,16 +46,6 @@ WallField field_around(const deck::Case& config, const Vessel& vessel, const Ste
              .reach = config.deployment.region * place.pattern.length}};
 }
 
-/// In the order of WallLayer.
-std::vector<SolidMaterial> wall_materials(const deck::Wall& wall) {
-    deck::SolidMaterialChoice usual;
-    usual.name = wall.law;
-    const auto make = [&](const std::optional<deck::SolidMaterialChoice>& said, const std::string& layer) {
-        return said ? make_solid_material(*said, "wall.layers." + layer) : make_solid_material(usual, "wall.law");
-    };
-    return {make(wall.layers.plaque, "plaque"), make(wall.layers.media, "media"), make(wall.layers.adventitia, "adventitia")};
-}
-
 std::unique_ptr<SolidPart> make_wall_part(const DeployScene& scene) {
     const VesselWall wall = make_vessel_wall(*scene.field, scene.wall_spacing, scene.config.wall.layers.adventitia_share);
     auto part = std::make_unique<SolidPart>();
@@ -74,13 +64,6 @@ std::unique_ptr<SolidPart> make_wall_part(const DeployScene& scene) {
     part->body = make_solid_body(solid, numerics);
     part->surface = std::make_unique<SolidSurface>(wall.surface, solid.particles, carrying * scene.wall_spacing, false);
     return part;
-}
-
-SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& pattern) {
-    if (stent.material) return make_solid_material(*stent.material, "stent.material");
-    deck::SolidMaterialChoice alloy;
-    alloy.name = pattern.alloy;
-    return make_solid_material(alloy, "stent.alloy");
 }
 
 void carry_lumen(DeployScene& scene) {
@@ -106,6 +89,22 @@ void carry_lumen(DeployScene& scene) {
 
 }   // namespace
 
+std::vector<SolidMaterial> wall_materials(const deck::Wall& wall) {
+    deck::SolidMaterialChoice usual;
+    usual.name = wall.law;
+    const auto make = [&](const std::optional<deck::SolidMaterialChoice>& said, const std::string& layer) {
+        return said ? make_solid_material(*said, "wall.layers." + layer) : make_solid_material(usual, "wall.law");
+    };
+    return {make(wall.layers.plaque, "plaque"), make(wall.layers.media, "media"), make(wall.layers.adventitia, "adventitia")};
+}
+
+SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& pattern) {
+    if (stent.material) return make_solid_material(*stent.material, "stent.material");
+    deck::SolidMaterialChoice alloy;
+    alloy.name = pattern.alloy;
+    return make_solid_material(alloy, "stent.alloy");
+}
+
 double usual_wall_spacing(double thickness) { return std::min(0.2e-3, thickness / 4); }
 
 double network_resolution(const deck::Case& config) { return config.wall.spacing.value_or(usual_wall_spacing(INFINITY)); }
@@ -115,8 +114,8 @@ double stent_mass_scaling(const deck::Case& config, const StentPlace& place, dou
     if (d.mass_scaling) return *d.mass_scaling;
     const SolidMaterial metal = stent_material(*config.stent, place.pattern);
     const SolidNumerics n = stent_numerics(config, spacing);
-    const double step = stent_step_share(place.form) * std::sqrt(stent_particle_mass_scaling) * n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density)),
-                 wanted = d.ramp / d.steps;
+    const double wave = n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density));
+    const double step = stent_step_share(place.form) * second_order_share * std::sqrt(stent_particle_mass_scaling) * wave, wanted = d.ramp / d.steps;
     return std::max(1.0, (wanted / step) * (wanted / step));
 }
 

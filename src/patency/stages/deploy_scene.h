@@ -32,6 +32,10 @@ struct DeployScene {
 /// Throws DeckError, GeometryError, FileError: everything that must be refused is refused here.
 std::unique_ptr<DeployScene> build_deployment(const deck::Case& config);
 
+/// What the layers of the wall are made of, in the order of WallLayer, and the stent. Throw as make_solid_material.
+std::vector<SolidMaterial> wall_materials(const deck::Wall& wall);
+SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& pattern);
+
 /// Of the surface that a network becomes [m]: the wall's spacing.
 double network_resolution(const deck::Case& config);
 /// Where the deck says nothing: 0.2 mm, or what puts four particles through the thickness [m].
