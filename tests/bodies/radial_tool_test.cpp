@@ -150,7 +150,7 @@ TEST(RadialTool, ItsWorkIsWhatSolidAndContactGet) {
         }
         tube.surface->follow(tube.solid.particles);
         contact->add_forces(k * dt, dt);
-        for (std::size_t v = 0; v < tube.surface->size(); ++v) to_tube += dt * dot(tube.surface->force[v], tube.surface->velocity[v]);
+        for (std::size_t v = 0; v < tube.surface->size(); ++v) to_tube += dt * dot(tube.surface->force[v], tube.surface->velocity(v));
     }
     const ContactReport r = contact->report();
     EXPECT_GT(r.damping_loss, 0);

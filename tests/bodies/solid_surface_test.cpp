@@ -90,7 +90,7 @@ TEST(SolidSurface, ALinearMotionCarriesItExactly) {
         surface.follow(solid.particles);
         for (std::size_t v = 0; v < surface.size(); ++v) {
             EXPECT_LT(norm(surface.position[v] - (A * s.fill.surface.vertices[v] + Vec3{1, 2, 0})), 1e-12) << s.name;
-            EXPECT_LT(norm(surface.velocity[v] - A * s.fill.surface.vertices[v]), 1e-12) << s.name;
+            EXPECT_LT(norm(surface.velocity(v) - A * s.fill.surface.vertices[v]), 1e-12) << s.name;
         }
     }
 }

@@ -206,8 +206,8 @@ private:
         const Hit& hit = hits_[v];
         const auto& corners = other_.mesh().elements[hit.element];
         Vec3 moving{};
-        for (std::size_t k = 0; k < 3; ++k) moving += hit.weights[k] * other_.velocity[corners[k]];
-        return own_.velocity[v] - moving;
+        for (std::size_t k = 0; k < 3; ++k) moving += hit.weights[k] * other_.velocity(corners[k]);
+        return own_.velocity(v) - moving;
     }
     double approach(std::size_t v) const { return -dot(velocity(v), hits_[v].normal); }
 
@@ -295,14 +295,14 @@ void RigidContact::add_forces(double time, double dt) {
 RigidContact::Touch RigidContact::touch_at(std::size_t v, double time, double dt) {
     const Touch& then = touches_[v];
     const double loss =
-        then.damper == 0 ? 0.0 : 0.5 * last_step_ * then.damper * (then.approach + then.tool_speed - dot(surface_.velocity[v], then.normal));
+        then.damper == 0 ? 0.0 : 0.5 * last_step_ * then.damper * (then.approach + then.tool_speed - dot(surface_.velocity(v), then.normal));
     const RigidHit hit = hit_of_(v, surface_.position[v], time);
     if (!(hit.depth > 0)) {
         if (then.depth > 0) stick_[v] = {};
         return {.damping_loss = loss};
     }
     const double stiffness = penalty_stiffness(surface_.mass(v), numerics_.step);
-    const auto t = touch(numerics_, stiffness, hit.depth, 0, hit.normal, surface_.velocity[v] - hit.velocity, dt, stick_[v]);
+    const auto t = touch(numerics_, stiffness, hit.depth, 0, hit.normal, surface_.velocity(v) - hit.velocity, dt, stick_[v]);
     return {t.force, hit.normal, t.push, t.damper, hit.depth, t.energy, t.approach, dot(hit.velocity, hit.normal), t.friction_loss, loss,
             dt * dot(t.force, hit.velocity)};
 }

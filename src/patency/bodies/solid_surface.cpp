@@ -35,7 +35,7 @@ SolidSurface::SolidSurface(SurfaceElements mesh, const SolidParticles& particles
     : mesh_(std::move(mesh)), planar_(planar) {
     const std::size_t n = mesh_.vertices.size();
     position = mesh_.vertices;
-    velocity.assign(n, {}), force.assign(n, {});
+    force.assign(n, {});
     find_elements_at();
     find_carriers(particles, support);
     transpose_carriers(particles);
@@ -118,12 +118,17 @@ void SolidSurface::find_elements_at() {
 }
 
 void SolidSurface::follow(const SolidParticles& particles) {
-    const Vec3 *x = particles.position.data(), *v = particles.velocity.data();
-    for_each_index(size(), [&](std::size_t k) {
-        WeightedSum places, velocities;
-        for (const Share* s = carriers_.begin(k); s < carriers_.end(k); ++s) places.add(s->weight, x[s->index]), velocities.add(s->weight, v[s->index]);
-        position[k] = places.value(), velocity[k] = velocities.value(), force[k] = {};
-    });
+    followed_ = &particles;
+    for_each_index(size(), [&](std::size_t k) { position[k] = carried_at(k, particles.position), force[k] = {}; });
+}
+
+Vec3 SolidSurface::velocity(std::size_t vertex) const { return followed_ ? carried_at(vertex, followed_->velocity) : Vec3{}; }
+
+Vec3 SolidSurface::carried_at(std::size_t vertex, const Field<Vec3>& field) const {
+    const Vec3* values = field.data();
+    WeightedSum sum;
+    for (const Share* s = carriers_.begin(vertex); s < carriers_.end(vertex); ++s) sum.add(s->weight, values[s->index]);
+    return sum.value();
 }
 
 Vec3 SolidSurface::area_vector(std::size_t element) const {

@@ -44,8 +44,10 @@ public:
     /// Elements at each vertex.
     const Ragged<std::uint32_t>& elements_at() const { return elements_at_; }
 
-    /// Places and velocities of the vertices; forces to zero.
+    /// Places of the vertices; forces to zero. The particles must stay where they are, and outlive what asks for velocities.
     void follow(const SolidParticles& particles);
+    /// Of a vertex [m/s], with the particles' as they are now: most vertices touch nothing, and nobody asks for theirs.
+    Vec3 velocity(std::size_t vertex) const;
     /// force += -pressure [Pa] times the outward area of the face as it is now, a third (a half) to each vertex.
     ///                                                                                             THEORY (21.4)
     void add_pressure(std::uint16_t face, double pressure);
@@ -60,7 +62,7 @@ public:
     /// Area [m^2; planar: m] in the reference configuration, a third of each of its elements.
     double area(std::size_t vertex) const { return area_[vertex]; }
 
-    std::vector<Vec3> position, velocity, force;   ///< by vertex: m, m/s, N
+    std::vector<Vec3> position, force;   ///< by vertex: m, N
 
 private:
     struct Share {
@@ -71,8 +73,10 @@ private:
     void find_elements_at();
     void transpose_carriers(const SolidParticles& particles);
     Vec3 area_vector(std::size_t element) const;
+    Vec3 carried_at(std::size_t vertex, const Field<Vec3>& field) const;
 
     SurfaceElements mesh_;
+    const SolidParticles* followed_ = nullptr;
     bool planar_;
     Ragged<Share> carriers_;            // of a vertex: particles
     Ragged<Share> carried_;             // of a carrier: vertices
