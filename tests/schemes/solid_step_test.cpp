@@ -117,7 +117,7 @@ TEST(SolidStep, DampingTakesEnergyAndTellsHowMuch) {
 
 /// A slender bar hangs from its top, and every step pushes neighbours apart and together by turns, as rounding does.
 TEST(SolidStep, ABodyWhoseParticlesTrembleComesToRestAllTheSame) {
-    constexpr double length = 24e-3, width = 3e-3, young = 1e6, density = 1000, pull = 100;
+    constexpr double length = 72e-3, width = 3e-3, young = 1e6, density = 1000, pull = 100;
     const double sag = density * pull * length * length / (2 * young);
     const SolidFill fill = fill_box({0, 0, 0}, {length, width, width}, 1e-3, false);
     SolidSystem system;
@@ -134,15 +134,15 @@ TEST(SolidStep, ABodyWhoseParticlesTrembleComesToRestAllTheSame) {
     part->body = make_solid_body(part->solid, numerics);
     SolidParticles& p = part->body->particles();
     system.parts.push_back(std::move(part));
-    const double dt = choose_strides(system), quiver = 2e-2 * sag / dt;
-    for (int k = 0; k < 500; ++k) {
+    const double dt = choose_strides(system), quiver = 1e-4 * sag / dt;
+    for (int k = 0; k < 1500; ++k) {
         for (std::size_t i = 0; i < p.size(); ++i)
             if (p.constraint[i] == 0) p.velocity[i] += (k % 2 == 0 ? 1 : -1) * (std::lround(p.reference[i].x / 1e-3 - 0.5) % 2 == 0 ? quiver : -quiver) * Vec3{1, 0, 0};
         solid_step(system, k * dt, dt);
     }
     double lowest = 0;
     for (std::size_t i = 0; i < p.size(); ++i) lowest = std::max(lowest, p.position[i].x - p.reference[i].x);
-    EXPECT_NEAR(lowest, sag, 0.1 * sag);   // the first millimetre is held
+    EXPECT_NEAR(lowest, 0.98 * sag, 0.02 * sag);   // the first millimetre is held
 }
 
 TEST(SolidStep, WhatIsNoLongerRelaxedIsNoLongerSlowedDown) {

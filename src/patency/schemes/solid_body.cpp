@@ -128,9 +128,20 @@ void SolidBody::kick_constrained(double dt, double time) {
 double SolidBody::find_present_frequency(double dt) {
     const SolidParticles& p = particles();
     Motion& m = motion_;
+    const bool is_first = m.last_force.empty();
+    if (is_first) m.last_force.assign(p.force.begin(), p.force.end());
     if (m.place.empty()) m.place.resize(p.size()), m.force.resize(p.size());
-    for_each_index(p.size(), [&](std::size_t i) { m.place[i] += p.position[i], m.force[i] += p.force[i]; });
-    if (++m.steps < m.steps_of_mean) return m.frequency;
+    const double mass = 2 * kinetic(), stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(p.velocity[i], p.force[i] - m.last_force[i]); }) / dt;
+    for_each_index(p.size(), [&](std::size_t i) { m.last_force[i] = p.force[i], m.place[i] += p.position[i], m.force[i] += p.force[i]; });
+    if (++m.steps == m.steps_of_mean) take_means(dt);
+    m.most = std::max(m.most, mass);
+    if (mass < share_at_rest * m.most) return m.frequency;
+    return mass > 0 && stiffness > 0 ? std::sqrt(stiffness / mass) : 0.0;
+}
+
+void SolidBody::take_means(double dt) {
+    const SolidParticles& p = particles();
+    Motion& m = motion_;
     const double share = 1.0 / m.steps;
     for_each_index(p.size(), [&](std::size_t i) { m.place[i] *= share, m.force[i] *= share; });
     if (!m.place_before.empty()) {
@@ -143,7 +154,6 @@ double SolidBody::find_present_frequency(double dt) {
     }
     m.place_before = std::move(m.place), m.force_before = std::move(m.force);
     m.place.clear(), m.force.clear(), m.steps = 0;
-    return m.frequency;
 }
 
 Mat3 SolidBody::cauchy(std::size_t i) const {
@@ -193,8 +203,8 @@ SolidEnergy SolidBody::energy() {
 
 std::vector<double> SolidBody::state() const {
     const Motion& m = motion_;
-    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, m.frequency, double(m.steps), double(m.steps_of_mean)};
-    for (const std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.place, &m.force, &m.place_before, &m.force_before}) {
+    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, m.frequency, m.most, double(m.steps), double(m.steps_of_mean)};
+    for (const std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
         state.push_back(double(vectors->size()));
         for (const Vec3& v : *vectors) state.insert(state.end(), {v.x, v.y, v.z});
     }
@@ -204,9 +214,9 @@ std::vector<double> SolidBody::state() const {
 void SolidBody::restore(std::span<const double> state) {
     Motion& m = motion_;
     const double* at = state.data();
-    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency}) *x = *at++;
+    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency, &m.most}) *x = *at++;
     m.steps = int(*at++), m.steps_of_mean = int(*at++);
-    for (std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.place, &m.force, &m.place_before, &m.force_before}) {
+    for (std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
         vectors->resize(std::size_t(*at++));
         for (Vec3& v : *vectors) v = {at[0], at[1], at[2]}, at += 3;
     }

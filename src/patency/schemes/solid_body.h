@@ -66,8 +66,9 @@ public:
     virtual void compute_force(double time) = 0;
     /// v += dt (force + load) / mass - dt drag v, over the step that begins at `time`; constrained axes take their velocity.
     void kick(double dt, double time, double drag = 0);
-    /// The circular frequency [1/s] of the slow mode that moves at present: Rayleigh's quotient of how places and forces changed
-    /// between two means. For adaptive relaxation, once in every step after compute_force; zero at first.   THEORY (20.14)
+    /// The circular frequency [1/s] at which the body answers to its present motion: Rayleigh's quotient of the last two forces, dt
+    /// apart; once it hardly moves any more, that of its slow mode, from means. For adaptive relaxation, once in every step after
+    /// compute_force; zero at first.                                                                THEORY (20.14)
     double find_present_frequency(double dt);
     void forget_motion() { motion_ = {}; }   ///< where it is not relaxed
 
@@ -119,14 +120,16 @@ private:
     std::vector<Vec3> reactions_;
     // Of the motion that is to be relaxed. A mean lasts as long as the slow mode turns by a third; what trembles goes to and fro
     // in it many times.
-    static constexpr double turn_in_mean = 0.3;
+    static constexpr double turn_in_mean = 0.3, share_at_rest = 1e-3;   // of the largest kinetic energy
     static constexpr int least_steps_of_mean = 8;
     struct Motion {
-        std::vector<Vec3> place, force;                 // sums over the steps of this mean
+        std::vector<Vec3> last_force, place, force;     // place, force: sums over the steps of this mean
         std::vector<Vec3> place_before, force_before;   // means before
         int steps = 0, steps_of_mean = least_steps_of_mean;
         double frequency = 0;   // between the last two means [1/s]
+        double most = 0;        // twice the largest kinetic energy [J]
     } motion_;
+    void take_means(double dt);
     std::optional<SelectiveMass> selective_;
     std::vector<Vec3> momentum_, middle_momentum_, old_velocity_;   // of a body with selective mass
     double viscous_ = 0, drag_ = 0, load_work_ = 0, constraint_work_ = 0;
