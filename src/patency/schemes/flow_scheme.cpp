@@ -80,23 +80,30 @@ public:
     }
 
 private:
-    using ViscousSums = std::array<T, std::size_t(terms::Viscosity::sums)>;
-
     void write_records() {
         const FluidParticles& fluid = domain_.fluid;
         const std::size_t n = fluid.size();
         pressure_.reset(n + 1), velocity_.reset(n + 1);
-        for (auto& row : gradient_) row.reset(n + 1);
+        for (auto* records : {&gradient_[0], &gradient_[1], &gradient_[2], &correction_[0], &correction_[1]}) {
+            records->reset(n + 1);
+            (*records)[n] = zero_record<T>();
+        }
         for_each_index(n, [&](std::size_t i) {
             velocity_[i] = vector_record(fluid.velocity[i], T(fluid.viscosity[i] / material_.viscosity));
             const Mat3 g = arrangement_.unit() * fluid.velocity_gradient[i];
             gradient_[0][i] = vector_record(g.x, T(dissipating_share(i)));
-            gradient_[1][i] = vector_record(g.y, T(0));
+            gradient_[1][i] = vector_record(g.y, T(sees_curvature(i)));
             gradient_[2][i] = vector_record(g.z, T(0));
+            const Sym<T>& c = arrangement_.closure(i).velocity;
+            correction_[0][i] = {c.xx, c.yy, c.zz, T(0)};
+            correction_[1][i] = {c.xy, c.xz, c.yz, T(0)};
         });
         pressure_[n] = dummy_record<T>();
-        velocity_[n] = gradient_[0][n] = gradient_[1][n] = gradient_[2][n] = zero_record<T>();
+        velocity_[n] = zero_record<T>();
     }
+
+    /// Near a wall the mirror is of first order, and in a buffer the velocity is told.                   THEORY.md (3.8)
+    bool sees_curvature(std::size_t i) const { return arrangement_.wall_of(i) == no_wall && domain_.fluid.opening[i] == 0; }
 
     /// 0 for the layer at the wall, whose gradient is of first order, 1 from the next one on.            THEORY.md (4.9)
     double dissipating_share(std::size_t i) const {
@@ -142,13 +149,19 @@ private:
                                        if (k != no_wall) wall_viscosity_[k] = sum;
                                    });
         surface_velocity_.resize(arrangement_.wall_count());
-        bend_.resize(domain_.fluid.size());
-        arrangement_.sum_over_blood(records_of(geometry, velocity_, row_x, row_y, row_z, diagonal, mixed),
-                                    records_of(geometry, velocity_, row_x, row_y, row_z), terms::Viscosity{},
-                                    [&](std::uint32_t i, const ViscousSums& sum) { apply_viscosity(i, sum, speed); });
+        held_.reset(domain_.fluid.size());
+        const auto sum_over_blood = [&](const auto& term) {
+            arrangement_.sum_over_blood(
+                records_of(geometry, velocity_, row_x, row_y, row_z, diagonal, mixed, correction_[0], correction_[1]),
+                records_of(geometry, velocity_, row_x, row_y, row_z), term,
+                [&](std::uint32_t i, const auto& sum) { apply_viscosity(i, sum, speed); });
+        };
+        if (material_.viscosity_at) sum_over_blood(terms::Viscosity<true>{});
+        else sum_over_blood(terms::Viscosity<false>{});
     }
 
-    void apply_viscosity(std::uint32_t i, const ViscousSums& sum, double speed) {
+    template <std::size_t sums>
+    void apply_viscosity(std::uint32_t i, const std::array<T, sums>& sum, double speed) {
         FluidParticles& fluid = domain_.fluid;
         const double unit = arrangement_.unit();
         const double mu = fluid.viscosity[i] / material_.viscosity;   // relative, as in the sums
@@ -167,24 +180,22 @@ private:
             laplacian -= mu * friction[0] * slip.velocity;
             first += mu * Vec3{friction[2], friction[3], friction[4]};
         }
-        // Near a wall the mirror is of first order, and in a buffer the velocity is told.          THEORY.md (3.8)
-        bend_[i] = 0;
-        if (k == no_wall && fluid.opening[i] == 0) {
-            const Mat3 bend{{sum[21], sum[22], sum[23]}, {sum[24], sum[25], sum[26]}, {sum[27], sum[28], sum[29]}};
-            gradient += bend;
-            bend_[i] = trace(bend * correct);
-        }
         gradient = gradient * correct;
+        const auto& m = arrangement_.moments(i);
+        held_[i] = {T(unit * m[9]), T(unit * m[10]), T(unit * m[11]), sum[15]};
         if (fluid.opening[i] != 0) {   // natural outflow: nothing changes along the axis
             const Vec3& axis = end_of(domain_, i).normal;
             gradient = gradient - outer(gradient * axis, axis);
         }
         // What the gradient alone contributes is taken off: exact for linear fields.               THEORY.md (3.5)
         laplacian += unit * (gradient * first);
-        // The other half of the stress of a viscosity that varies: (grad v)^T grad mu.             THEORY.md (3.7)
-        const Vec3 thinning = correct * Vec3{sum[15], sum[16], sum[17]};
         const double nu = material_.kinematic_viscosity(), scale = nu / (unit * unit);
-        Vec3 viscous = scale * laplacian + nu * (transpose(gradient) * thinning);
+        Vec3 viscous = scale * laplacian;
+        if constexpr (sums == terms::Viscosity<true>::sums) {
+            // The other half of the stress of a viscosity that varies: (grad v)^T grad mu.         THEORY.md (3.7)
+            const Vec3 thinning = correct * Vec3{sum[19], sum[20], sum[21]};
+            viscous += nu * (transpose(gradient) * thinning);
+        }
         if (k != no_wall && !numerics_.free_slip) {
             // At a wall that does not slip the blood moves with the wall, so the viscous force there balances the
             // pressure gradient: the curvature of the profile, which the linear mirror leaves out.  THEORY.md (5.3)
@@ -197,7 +208,7 @@ private:
             viscous += double(wall_viscosity_[k][1]) * second;
         }
         const double upwind = numerics_.velocity_dissipation * speed * kernel_.slope() * numerics_.cell() * unit;
-        if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[18], sum[19], sum[20]};
+        if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[16], sum[17], sum[18]};
         fluid.slow_acceleration[i] = viscous + numerics_.body_force;
         fluid.velocity_gradient[i] = gradient;
         if (material_.viscosity_at) fluid.viscosity[i] = material_.viscosity_at(shear_rate(gradient));
@@ -253,11 +264,11 @@ private:
                     const Vec3 slip = fluid.velocity[i] - surface_velocity_of(i, k);
                     divergence += T(slip.x) * b.wall.x + T(slip.y) * b.wall.y + T(slip.z) * b.wall.z;
                 }
-                divergence_[i] = double(divergence) + bend_[i];
+                const Quad<T>& held = held_[i];
+                divergence_[i] = double(divergence) + double(held.d);
                 const double expansion = divergence_[i] - excess;
-                const auto& m = arrangement_.moments(i);   // of the linear part, whose diffusion vanishes: taken off
-                const Vec3& g = fluid.pressure_gradient[i];
-                const double jump = double(s[6]) - unit * (g.x * m[9] + g.y * m[10] + g.z * m[11]);
+                const Vec3& g = fluid.pressure_gradient[i];   // the linear part, whose diffusion vanishes: taken off
+                const double jump = double(s[6]) - (g.x * held.a + g.y * held.b + g.z * held.c);
                 // Blood does not expand on its way down a pressure gradient: the artificial compressibility acts at a
                 // fixed place, and a particle takes up the pressure of the places it comes to.     THEORY.md (2.6)
                 const double rate = -stiffness * expansion - smoothing * jump + dot(fluid.velocity[i], g);
@@ -316,11 +327,13 @@ private:
     Arrangement<T> arrangement_;
     AlignedVector<Quad<T>> pressure_, velocity_;       // records: (x, p), (v, mu) and from the first kick on (v, p)
     std::array<AlignedVector<Quad<T>>, 3> gradient_;   // records: rows of the velocity gradient, per unit of the loop
+    std::array<AlignedVector<Quad<T>>, 2> correction_;   // records: of the divergence: (xx, yy, zz, .), (xy, xz, yz, .)
     std::vector<std::array<T, 5>> wall_viscosity_;     // by numbers of particles near the wall
     std::vector<Vec3> surface_velocity_;               // of the wall, by the same numbers
     std::vector<Vec3> moved_;
     std::vector<double> divergence_;   // of the velocity, as the sums report it [1/s]
-    std::vector<double> bend_;         // what the curvature of the velocity adds to its divergence [1/s]
+    // Over the acoustic steps: sum w r d [m], and what the curvature of the velocity adds to its divergence [1/s].
+    AlignedVector<Quad<T>> held_;
     bool gradients_known_ = false;
 };
 

@@ -114,43 +114,48 @@ PATENCY_INLINE P laplacian_weight(const Pair<P>& pair, const Quads<P>& diagonal,
 }
 
 /// What the slow terms need over the own body. Extra quads: (v, mu), the rows of the velocity gradient L in the loop's unit
-/// of length, (L_x, 1 or 0 for who dissipates), (L_y, .), (L_z, .); of i also A (xx, yy, zz, .) and (xy, xz, yz, .).
-///   0-8   sum w (v_i - v_j) d, by rows          9-11  sum wA mu (v_j - v_i)
-///   12-14 sum wA mu d                           15-17 sum w (mu_i - mu_j) d
-///   18-20 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
-///   21-29 sum w (L_i - L_j) d / 2 d, by rows: what the curvature of the velocity takes from 0-8   THEORY.md (3.8)
+/// of length, (L_x, 1 or 0 for who dissipates), (L_y, 1 or 0 for who sees curvature), (L_z, .); of i also A (xx, yy, zz, .) and
+/// (xy, xz, yz, .), and the correction matrix C of the divergence in the same form. With b = (L_i - L_j) d / 2, what the
+/// curvature of the velocity takes from v_i - v_j, where i sees it:
+///   0-8   sum w (v_i - v_j + b) d, by rows      9-11  sum wA mu (v_j - v_i)                       THEORY.md (3.8)
+///   12-14 sum wA mu d                           15    sum w b.C d
+///   16-18 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
+/// and, where the viscosity varies:              19-21 sum w (mu_i - mu_j) d
+template <bool thinning>
 struct Viscosity {
-    static constexpr int own_extras = 6, extras = 4, sums = 30;
+    static constexpr int own_extras = 8, extras = 4, sums = thinning ? 22 : 19;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 6>& i, const Sample<P, 4>& j, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 8>& i, const Sample<P, 4>& j, std::array<P, sums>& sum) const {
+        const Vec<P>& d = pair.d;
         const Quads<P>&vi = i.extra[0], &vj = j.extra[0];
         const P w = pair.t * pair.t * pair.t;
-        const P wx = w * pair.d.x, wy = w * pair.d.y, wz = w * pair.d.z;
         const P u = vi.a - vj.a, v = vi.b - vj.b, q = vi.c - vj.c;
-        sum[0] = fma(u, wx, sum[0]), sum[1] = fma(u, wy, sum[1]), sum[2] = fma(u, wz, sum[2]);
-        sum[3] = fma(v, wx, sum[3]), sum[4] = fma(v, wy, sum[4]), sum[5] = fma(v, wz, sum[5]);
-        sum[6] = fma(q, wx, sum[6]), sum[7] = fma(q, wy, sum[7]), sum[8] = fma(q, wz, sum[8]);
         const P friction = laplacian_weight(pair, i.extra[4], i.extra[5]) * (P(0.5f) * (vi.d + vj.d));
-        sum[9] -= friction * u, sum[10] -= friction * v, sum[11] -= friction * q;
-        sum[12] = fma(friction, pair.d.x, sum[12]), sum[13] = fma(friction, pair.d.y, sum[13]), sum[14] = fma(friction, pair.d.z, sum[14]);
-        const P thinning = vi.d - vj.d;
-        sum[15] = fma(thinning, wx, sum[15]), sum[16] = fma(thinning, wy, sum[16]), sum[17] = fma(thinning, wz, sum[17]);
-        const auto explained = [&](std::size_t row) {   // by the two gradients: component `row` of (L_i + L_j) d / 2
-            const Quads<P>&gi = i.extra[row], &gj = j.extra[row];
-            return P(0.5f) * fma(gi.a + gj.a, pair.d.x, fma(gi.b + gj.b, pair.d.y, (gi.c + gj.c) * pair.d.z));
-        };
+        sum[9] = fma(-friction, u, sum[9]), sum[10] = fma(-friction, v, sum[10]), sum[11] = fma(-friction, q, sum[11]);
+        sum[12] = fma(friction, d.x, sum[12]), sum[13] = fma(friction, d.y, sum[13]), sum[14] = fma(friction, d.z, sum[14]);
+        const auto half_way = [&](const Quads<P>& row) { return P(0.5f) * fma(row.a, d.x, fma(row.b, d.y, row.c * d.z)); };
+        const P ix = half_way(i.extra[1]), iy = half_way(i.extra[2]), iz = half_way(i.extra[3]);
+        const P jx = half_way(j.extra[1]), jy = half_way(j.extra[2]), jz = half_way(j.extra[3]);
         const P wr = w * pair.r * (i.extra[1].d * j.extra[1].d);
-        sum[18] = fma(wr, u - explained(1), sum[18]);
-        sum[19] = fma(wr, v - explained(2), sum[19]);
-        sum[20] = fma(wr, q - explained(3), sum[20]);
-        const auto bend = [&](std::size_t row) {   // component `row` of (L_i - L_j) d / 2
-            const Quads<P>&gi = i.extra[row], &gj = j.extra[row];
-            return P(0.5f) * fma(gi.a - gj.a, pair.d.x, fma(gi.b - gj.b, pair.d.y, (gi.c - gj.c) * pair.d.z));
-        };
-        const P bx = bend(1), by = bend(2), bz = bend(3);
-        sum[21] = fma(bx, wx, sum[21]), sum[22] = fma(bx, wy, sum[22]), sum[23] = fma(bx, wz, sum[23]);
-        sum[24] = fma(by, wx, sum[24]), sum[25] = fma(by, wy, sum[25]), sum[26] = fma(by, wz, sum[26]);
-        sum[27] = fma(bz, wx, sum[27]), sum[28] = fma(bz, wy, sum[28]), sum[29] = fma(bz, wz, sum[29]);
+        sum[16] = fma(wr, u - (ix + jx), sum[16]);
+        sum[17] = fma(wr, v - (iy + jy), sum[17]);
+        sum[18] = fma(wr, q - (iz + jz), sum[18]);
+        const P share = i.extra[2].d;
+        const P bx = share * (ix - jx), by = share * (iy - jy), bz = share * (iz - jz);
+        const Quads<P>&diagonal = i.extra[6], &mixed = i.extra[7];
+        const P cx = fma(diagonal.a, d.x, fma(mixed.a, d.y, mixed.b * d.z));
+        const P cy = fma(mixed.a, d.x, fma(diagonal.b, d.y, mixed.c * d.z));
+        const P cz = fma(mixed.b, d.x, fma(mixed.c, d.y, diagonal.c * d.z));
+        sum[15] = fma(w, fma(bx, cx, fma(by, cy, bz * cz)), sum[15]);
+        const P wx = w * d.x, wy = w * d.y, wz = w * d.z;
+        const P ub = u + bx, vb = v + by, qb = q + bz;
+        sum[0] = fma(ub, wx, sum[0]), sum[1] = fma(ub, wy, sum[1]), sum[2] = fma(ub, wz, sum[2]);
+        sum[3] = fma(vb, wx, sum[3]), sum[4] = fma(vb, wy, sum[4]), sum[5] = fma(vb, wz, sum[5]);
+        sum[6] = fma(qb, wx, sum[6]), sum[7] = fma(qb, wy, sum[7]), sum[8] = fma(qb, wz, sum[8]);
+        if constexpr (thinning) {
+            const P less = vi.d - vj.d;
+            sum[19] = fma(less, wx, sum[19]), sum[20] = fma(less, wy, sum[20]), sum[21] = fma(less, wz, sum[21]);
+        }
     }
 };
 
