@@ -38,7 +38,7 @@ TEST(CellMixing, FindsWhatALinearIterationGoesTo) {
     for (int step = 0; step < 6; ++step) {
         plain.apply(plain.proposed());
         CellVectors change = mixed.proposed();
-        mixing.mix(change);
+        mixing.mix(change, mixed.lacking());
         mixed.apply(change);
     }
     EXPECT_GT(plain.lacking(), 1e-2 * first);
@@ -50,22 +50,40 @@ TEST(CellMixing, BeginsAnewWhenItForgets) {
     CellMixing mixing(4);
     for (int step = 0; step < 2; ++step) {
         CellVectors change = slow.proposed();
-        mixing.mix(change);
+        mixing.mix(change, slow.lacking());
         slow.apply(change);
     }
     mixing.forget();
     const CellVectors proposed = slow.proposed();
     CellVectors change = proposed;
-    mixing.mix(change);
+    mixing.mix(change, slow.lacking());
     for (std::size_t i = 0; i < change.size(); ++i)
         for (int c = 0; c < 4; ++c) EXPECT_EQ(change[i][c], proposed[i][c]);
+}
+
+// A flow that has gone astray: what its steps told of it before leads nowhere.
+TEST(CellMixing, ForgetsWhatHasGainedNothingForLong) {
+    CellMixing mixing(4);
+    int alone = 0;   // the first step after the first that is made as it was proposed
+    for (int step = 0; step < 40 && alone == 0; ++step) {
+        CellVectors change(3);
+        for (std::size_t i = 0; i < 3; ++i)
+            for (int c = 0; c < 4; ++c) change[i][c] = std::sin(float(7 * step + 3 * int(i) + c));
+        const CellVectors proposed = change;
+        mixing.mix(change, 1.0);
+        bool same = step > 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (int c = 0; c < 4; ++c) same = same && change[i][c] == proposed[i][c];
+        if (same) alone = step;
+    }
+    EXPECT_EQ(alone, 15);
 }
 
 TEST(CellMixing, LeavesAnIterationThatIsThereAlone) {
     CellMixing mixing(3);
     for (int step = 0; step < 4; ++step) {
         CellVectors nothing(2, CellVector{});
-        mixing.mix(nothing);
+        mixing.mix(nothing, 0);
         for (const CellVector& v : nothing)
             for (int c = 0; c < 4; ++c) EXPECT_EQ(v[c], 0);
     }

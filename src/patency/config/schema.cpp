@@ -55,8 +55,8 @@ const Table& table_of<Numerics>() {
             row(&Numerics::duration, {.key = "duration", .help = "the simulated time", .unit = "s",
                                       .range = above_up_to(0, 1e4), .example = "2 s", .need = always}),
             row(&Numerics::convergence, {.key = "convergence", .help = "ends the run when the flow has settled, the duration at the latest"}),
-            row(&Numerics::without_rest, {.key = "without_rest", .help = "of scheme cells, a steady flow whose jet finds no rest: means over its last iterations, marked; or follow it in time, which "
-                                          "takes ten times as long, for means over time"}),
+            row(&Numerics::without_rest, {.key = "without_rest", .help = "of scheme cells, a steady flow whose jet finds no rest by itself: means, to look for the steady flow nevertheless and, if there "
+                                          "is none, give marked means over iterations; follow, to follow it in time, which takes ten times as long, for means over time"}),
             row(&Numerics::steps_per_period, {.key = "steps_per_period", .help = "of scheme cells: steps in a period of a periodic flow",
                                               .range = between(20, 100000)}),
             row(&Numerics::advection_cfl, {.key = "advection_cfl", .help = "advection step over h / largest speed",

@@ -16,7 +16,7 @@ struct CellSolverSettings {
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 40;
     double krylov_tolerance = 0.1;
-    double mixes_below = 0;   ///< of what cells lack: from then on the last steps are mixed              THEORY.md (18.18)
+    double mixes_below = 0.2;   ///< of the forces that cells lack: from then on the last steps are mixed   THEORY.md (18.18)
     bool gives_up = false;    ///< a flow that stands without rest or takes too many steps is left as it is, for whoever follows it in time
     bool ends_may_turn = true;   ///< between a pressure and what enters, in every step
     std::function<bool()> interrupted = {};   ///< asked after every step; true ends the run

@@ -152,6 +152,7 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
                                                           : make_cell_points(lumen, coarser_by * numerics.spacing));
         scene->vessel = vessel;
         CellSolverSettings settings{.tolerance = tolerance, .gives_up = numerics.without_rest == deck::WithoutRest::follow};
+        if (settings.gives_up) settings.mixes_below = 0;   // steps that are mixed find a steady flow also where none would last
         // Nor would finer cells find rest: only what the coarse ones' fields lack on them is to fade.
         if (coarser && coarser->solution.is_given_up) settings.most_iterations = fading;
         if (watch) settings.interrupted = [&] { return watch(*scene); };
