@@ -135,7 +135,7 @@ double SolidBody::find_present_frequency(double dt) {
     for_each_index(p.size(), [&](std::size_t i) { m.last_force[i] = p.force[i], m.place[i] += p.position[i], m.force[i] += p.force[i]; });
     if (++m.steps == m.steps_of_mean) take_means(dt);
     m.most = std::max(m.most, mass);
-    if (mass < share_at_rest * m.most) return m.frequency;
+    if (mass < share_at_rest * std::min(m.most, 2 * m.elastic)) return m.frequency;
     return mass > 0 && stiffness > 0 ? std::sqrt(stiffness / mass) : 0.0;
 }
 
@@ -152,6 +152,8 @@ void SolidBody::take_means(double dt) {
         const double wanted = m.frequency > 0 ? turn_in_mean / (m.frequency * dt) : m.steps;
         m.steps_of_mean = int(std::clamp(wanted, std::max<double>(least_steps_of_mean, m.steps / 2), 2.0 * m.steps));
     }
+    // A stiff body that was carried along fast may swing with little of that ride's energy, and yet with all of its own.
+    if (2 * kinetic() < share_at_rest * m.most) m.elastic = elastic_energy() + hourglass_energy();
     m.place_before = std::move(m.place), m.force_before = std::move(m.force);
     m.place.clear(), m.force.clear(), m.steps = 0;
 }
@@ -170,7 +172,7 @@ Mat3 SolidBody::cauchy(std::size_t i) const {
     return (1 / determinant(F)) * tau;
 }
 
-SolidEnergy SolidBody::energy() {
+double SolidBody::elastic_energy() {
     compute_deformation();
     const SolidParticles& p = particles();
     const auto elastic = [&](std::size_t i) {
@@ -184,13 +186,18 @@ SolidEnergy SolidBody::energy() {
             },
             material(i).law);
     };
+    return sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * elastic(i); });
+}
+
+SolidEnergy SolidBody::energy() {
+    const SolidParticles& p = particles();
     const auto flow = [&](std::size_t i) {
         const auto* metal = std::get_if<J2Plastic>(&material(i).law);
         return metal ? metal->hardening.work(p.plastic_strain[i]) : 0.0;
     };
     SolidEnergy e;
     e.kinetic = kinetic();
-    e.elastic = sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * elastic(i); });
+    e.elastic = elastic_energy();
     e.plastic = sum_of(p.size(), [&](std::size_t i) { return p.volume[i] * flow(i); });
     e.hourglass = hourglass_energy();
     e.yielded = yielded_;
@@ -203,7 +210,7 @@ SolidEnergy SolidBody::energy() {
 
 std::vector<double> SolidBody::state() const {
     const Motion& m = motion_;
-    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, m.frequency, m.most, double(m.steps), double(m.steps_of_mean)};
+    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, m.frequency, m.most, m.elastic, double(m.steps), double(m.steps_of_mean)};
     for (const std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
         state.push_back(double(vectors->size()));
         for (const Vec3& v : *vectors) state.insert(state.end(), {v.x, v.y, v.z});
@@ -214,7 +221,7 @@ std::vector<double> SolidBody::state() const {
 void SolidBody::restore(std::span<const double> state) {
     Motion& m = motion_;
     const double* at = state.data();
-    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency, &m.most}) *x = *at++;
+    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency, &m.most, &m.elastic}) *x = *at++;
     m.steps = int(*at++), m.steps_of_mean = int(*at++);
     for (std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
         vectors->resize(std::size_t(*at++));

@@ -115,12 +115,13 @@ private:
     Powers kick_selectively(double dt, double drag);
     void kick_constrained(double dt, double time);
     double kinetic() const;
+    double elastic_energy();   ///< [J]; finds F as energy() does
 
     std::vector<std::vector<std::uint32_t>> constrained_;   // particles, by constraint
     std::vector<Vec3> reactions_;
     // Of the motion that is to be relaxed. A mean lasts as long as the slow mode turns by a third; what trembles goes to and fro
     // in it many times.
-    static constexpr double turn_in_mean = 0.3, share_at_rest = 1e-3;   // of the largest kinetic energy
+    static constexpr double turn_in_mean = 0.3, share_at_rest = 1e-3;   // of the largest kinetic energy, and of the body's own elastic one
     static constexpr int least_steps_of_mean = 8;
     struct Motion {
         std::vector<Vec3> last_force, place, force;     // place, force: sums over the steps of this mean
@@ -128,6 +129,7 @@ private:
         int steps = 0, steps_of_mean = least_steps_of_mean;
         double frequency = 0;   // between the last two means [1/s]
         double most = 0;        // twice the largest kinetic energy [J]
+        double elastic = 0;     // in the last mean, of a body that hardly moves any more [J]
     } motion_;
     void take_means(double dt);
     std::optional<SelectiveMass> selective_;
