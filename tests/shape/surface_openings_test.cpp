@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "patency/base/errors.h"
 #include "tests/shape/surfaces.h"
 
@@ -59,6 +61,21 @@ TEST(SurfaceOpenings, OfACapCutAtAnAngle) {
     const auto openings = openings_of(tube);
     ASSERT_EQ(openings.size(), 2u);
     EXPECT_NEAR(openings[0].opening.area, std::numbers::pi * 1e-6 * std::hypot(1, 0.7), 0.01 * std::numbers::pi * 1e-6);
+}
+
+// Noise and smoothing bend a cap: it is one as long as its edge is sharp.
+TEST(SurfaceOpenings, OfCapsThatAreBent) {
+    Surface tube = subdivided(make_tube_mesh({.start_cap = true, .end_cap = true}));
+    tube.face_ids.clear();
+    for (Vec3& x : tube.points)
+        x += Vec3{0.06e-3 * std::sin(2e3 * x.y + 1e3 * x.z), 0.1e-3 * std::sin(0.9e3 * x.x), 0};   // six degrees across a cap
+    const auto openings = openings_of(tube);
+    ASSERT_EQ(openings.size(), 2u);
+    for (const SurfaceOpening& o : openings) {
+        EXPECT_GT(o.flatness, 0.02e-3);
+        EXPECT_NEAR(2 * o.opening.radius, 2e-3, 0.02 * 2e-3);
+        EXPECT_NEAR(std::abs(o.opening.normal.x), 1, 0.02);
+    }
 }
 
 TEST(SurfaceOpenings, ARoundedEndIsNone) {

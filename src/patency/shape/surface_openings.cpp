@@ -22,10 +22,10 @@ namespace {
 constexpr double coplanar_degrees = 2;      // between neighbours of one face; what rounding in files leaves is below
 constexpr double crease_degrees = 30;       // at its rim; a tube's facets meet at less, a cap cut across it at about 90
 constexpr double crease_share = 0.9;        // of the rim that must be so sharp
-constexpr double largest_flatness = 0.02;   // of the diameter; a face with an id of its own may be cut by hand
-constexpr double largest_labelled_flatness = 0.1;
+constexpr double largest_flatness = 0.02;   // of the diameter; a face with an id or a crease of its own may be cut by hand or bent
+constexpr double largest_bent_flatness = 0.1;
 constexpr double smallest_roundness = 0.7;     // an ellipse cut at 60 degrees has 0.84, a square 0.79, a triangle 0.60
-constexpr double smallest_flat_share = 0.95;   // |sum of area vectors| / area of a face with an id: a tube's is 0
+constexpr double smallest_flat_share = 0.95;   // |sum of area vectors| / area of a face: a tube's is 0
 constexpr std::size_t fewest_edges = 4;        // a triangle is part of a wall
 
 constexpr double smallest_inlet = 0.5e-3,
@@ -87,10 +87,12 @@ bool has_sharp_rim(const Surface& surface, const Face& face, const FlatLoop& loo
     for (std::size_t k = 0; k < face.rim.size(); ++k) {
         const EdgeUse& side = face.rim[k];
         const Triangle& outside = surface.triangles[face.beyond[k]];
-        const double edge = norm(surface.points[side.high] - surface.points[side.low]);
+        const Vec3 &low = surface.points[side.low], &high = surface.points[side.high];
+        const double edge = norm(high - low);
         const double turn = dot(normalized(area_vector(surface, outside)),
                                 normalized(area_vector(surface, surface.triangles[side.triangle])));
-        const bool goes_back = dot(centroid(surface, outside) - loop.centre, loop.normal) < 0;
+        // From the edge, not from the plane: a rim may be bent by more than slivers are long.
+        const bool goes_back = dot(centroid(surface, outside) - 0.5 * (low + high), loop.normal) < 0;
         length += edge;
         if (turn < cosine(crease_degrees) && goes_back) sharp += edge;
     }
@@ -123,7 +125,7 @@ std::vector<SurfaceOpening> find_labelled(const Surface& surface, const std::vec
     for (const Face& face : find_faces(surface, uses, same_id)) {
         if (norm(face.area_sum) < smallest_flat_share * face.area) continue;
         const FlatLoop loop = rim_of(surface, face);
-        if (!closes_an_end(loop, largest_labelled_flatness)) continue;
+        if (!closes_an_end(loop, largest_bent_flatness)) continue;
         openings.push_back(make_opening(loop));
         openings.back().face_id = surface.face_ids[face.triangles[0]];
         openings.back().triangles = face.triangles;
@@ -131,20 +133,27 @@ std::vector<SurfaceOpening> find_labelled(const Surface& surface, const std::vec
     return openings;
 }
 
-/// Flat regions within sharp edges.
+/// Flat regions within sharp edges, and what is nearly flat between them: a cap that smoothing or noise has bent.
 std::vector<SurfaceOpening> find_flat_regions(const Surface& surface, const std::vector<EdgeUse>& uses) {
     std::vector<Vec3> normals;
     for (const Triangle& t : surface.triangles) normals.push_back(normalized(area_vector(surface, t)));
-    const auto coplanar = [&](auto a, auto b) { return dot(normals[a], normals[b]) > cosine(coplanar_degrees); };
     std::vector<SurfaceOpening> openings;
-    for (const Face& face : find_faces(surface, uses, coplanar)) {
-        if (face.rim.size() < fewest_edges) continue;
-        const FlatLoop loop = rim_of(surface, face);
-        if (!closes_an_end(loop, largest_flatness) || !has_sharp_rim(surface, face, loop)) continue;
-        openings.push_back(make_opening(loop));
-        openings.back().triangles = face.triangles;
-        if (!surface.face_ids.empty()) openings.back().face_id = surface.face_ids[face.triangles[0]];
-    }
+    std::vector<bool> is_taken(surface.triangles.size(), false);
+    const auto find = [&](double degrees, double flatness) {
+        const auto belong_together = [&](auto a, auto b) { return dot(normals[a], normals[b]) > cosine(degrees); };
+        for (const Face& face : find_faces(surface, uses, belong_together)) {
+            if (face.rim.size() < fewest_edges || norm(face.area_sum) < smallest_flat_share * face.area) continue;
+            if (std::any_of(face.triangles.begin(), face.triangles.end(), [&](std::uint32_t t) { return is_taken[t]; })) continue;
+            const FlatLoop loop = rim_of(surface, face);
+            if (!closes_an_end(loop, flatness) || !has_sharp_rim(surface, face, loop)) continue;
+            openings.push_back(make_opening(loop));
+            openings.back().triangles = face.triangles;
+            if (!surface.face_ids.empty()) openings.back().face_id = surface.face_ids[face.triangles[0]];
+            for (const std::uint32_t t : face.triangles) is_taken[t] = true;
+        }
+    };
+    find(coplanar_degrees, largest_flatness);
+    find(crease_degrees, largest_bent_flatness);
     return openings;
 }
 

@@ -23,7 +23,7 @@ struct SurfaceOpening {
 };
 
 /// The openings by falling area, named inlet, outlet_1, outlet_2...: open ends, flat faces with a face id of their own,
-/// else round flat regions with a sharp edge all around at which the wall turns away.
+/// else round flat regions, if bent not by much, with a sharp edge all around at which the wall turns away.
 std::vector<SurfaceOpening> find_openings(const CheckedSurface& checked);
 
 /// Names another one the inlet: by its name, or its number 1, 2.. in the list. It comes first then, the others
