@@ -79,6 +79,19 @@ TEST(CellMixing, ForgetsWhatHasGainedNothingForLong) {
     EXPECT_EQ(alone, 15);
 }
 
+// The answer to a step a hundred times as long as this one is of another flow; to one ten times as long it is not.
+TEST(CellMixing, ForgetsStepsThatWereMuchLonger) {
+    const auto made_after = [](float longer) {
+        CellMixing mixing(4);
+        CellVectors first{CellVector{longer, 0, 0, 0}}, second{CellVector{0.6f, 0.8f, 0, 0}};
+        mixing.mix(first, 1);
+        mixing.mix(second, 0.5);
+        return second[0];
+    };
+    EXPECT_EQ(made_after(100)[0], 0.6f);
+    EXPECT_NE(made_after(10)[0], 0.6f);
+}
+
 TEST(CellMixing, LeavesAnIterationThatIsThereAlone) {
     CellMixing mixing(3);
     for (int step = 0; step < 4; ++step) {

@@ -172,6 +172,21 @@ numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s", without_rest: fol
     EXPECT_EQ(text_of(whole.file("waveforms.csv")), text_of(out.file("waveforms.csv")));
 }
 
+// A slower one comes to rest in 190 steps; if they are not mixed, it takes 490.
+TEST(CellScene, FindsTheRestOfAJet) {
+    const auto scene = make_solved_scene(deck::parse_case(R"(version: 1
+case: {name: jet}
+geometry: {shape: {type: step, gap: "2 mm", length: "12 mm", step_height: "1 mm", step_at: "3 mm"}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlet: {type: velocity, profile: parabola, velocity: "3 m/s"}
+  outlet: {type: pressure, pressure: "0 Pa"}
+numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s"}
+)"));
+    EXPECT_TRUE(scene->solution.is_converged);
+    EXPECT_LT(scene->solution.history.size(), 300u);
+}
+
 // What rests goes on resting: the march begins with the steady flow's pressures and keeps them.
 TEST(CellMarch, KeepsASteadyFlow) {
     const deck::Case config = deck::parse_case(R"(version: 1

@@ -41,6 +41,7 @@ TEST(CellScene, flowsAsTheDeckSays) {
     const auto& outlet = summary["openings"]["outlet"];
     EXPECT_NEAR(inlet["flow_m3_per_s"], -flow, 1e-12 * flow);
     EXPECT_NEAR(outlet["flow_m3_per_s"], flow, 1e-6 * flow);
+    EXPECT_NEAR(outlet["mean_pressure_pa"], 10 + 2e8 * flow, 1e-5);
     EXPECT_NEAR(outlet["mean_pressure_pa"], 10 + 2e8 * double(outlet["flow_m3_per_s"]), 1e-8);   // its model's, of what leaves there
     EXPECT_NEAR(outlet["resistance_pa_s_per_m3"], 2e8, 1);
     const double drop = 8 * mu * speed * length / (radius * radius);

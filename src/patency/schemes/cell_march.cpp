@@ -127,6 +127,7 @@ void CellMarch::start_from_extrapolation(const TimeRate& rate, double dt) {
 
 int CellMarch::solve() {
     CellSolverSettings settings{.tolerance = domain_.each_step.tolerance,
+                                .imbalance_share = 1,   // no more than all cells may lack together
                                 .least_iterations = domain_.each_step.least,
                                 .most_iterations = most_iterations,
                                 .first_courant = first_courant,

@@ -10,7 +10,7 @@ namespace patency {
 namespace {
 // Of the square of each answer, all taken of one length: answers that say nearly the same share what there is to say.
 constexpr double regular = 1e-8;
-// A step that was longer than the one proposed by that has left a flow that is not this one, as far as straight lines go.
+// Answers so many times as long as what is proposed now are of a flow too far from this one to tell its straight lines.
 constexpr double far = 30;
 // Of steps that leave more than `gain` of the least so far.
 constexpr int patience = 15;

@@ -11,6 +11,7 @@ namespace patency {
 
 struct CellSolverSettings {
     double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
+    double imbalance_share = 0.3;   ///< of the tolerance, for what the openings let in over all that passes: results are told by it
     int least_iterations = 0, most_iterations = 400;   ///< with either transport
     double first_courant = 5, courant = 1000, growth = 1.4;
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it

@@ -25,7 +25,7 @@ constexpr double crease_share = 0.9;        // of the rim that must be so sharp
 constexpr double largest_flatness = 0.02;   // of the diameter; a face with an id or a crease of its own may be cut by hand or bent
 constexpr double largest_bent_flatness = 0.1;
 constexpr double smallest_roundness = 0.7;     // an ellipse cut at 60 degrees has 0.84, a square 0.79, a triangle 0.60
-constexpr double smallest_flat_share = 0.95;   // |sum of area vectors| / area of a face: a tube's is 0
+constexpr double smallest_flat_share = 0.95;   // |sum of area vectors| / area of a face with an id or a crease: a tube's is 0
 constexpr std::size_t fewest_edges = 4;        // a triangle is part of a wall
 
 constexpr double smallest_inlet = 0.5e-3,
@@ -139,10 +139,10 @@ std::vector<SurfaceOpening> find_flat_regions(const Surface& surface, const std:
     for (const Triangle& t : surface.triangles) normals.push_back(normalized(area_vector(surface, t)));
     std::vector<SurfaceOpening> openings;
     std::vector<bool> is_taken(surface.triangles.size(), false);
-    const auto find = [&](double degrees, double flatness) {
+    const auto find = [&](double degrees, double flatness, double flat_share) {
         const auto belong_together = [&](auto a, auto b) { return dot(normals[a], normals[b]) > cosine(degrees); };
         for (const Face& face : find_faces(surface, uses, belong_together)) {
-            if (face.rim.size() < fewest_edges || norm(face.area_sum) < smallest_flat_share * face.area) continue;
+            if (face.rim.size() < fewest_edges || norm(face.area_sum) < flat_share * face.area) continue;
             if (std::any_of(face.triangles.begin(), face.triangles.end(), [&](std::uint32_t t) { return is_taken[t]; })) continue;
             const FlatLoop loop = rim_of(surface, face);
             if (!closes_an_end(loop, flatness) || !has_sharp_rim(surface, face, loop)) continue;
@@ -152,8 +152,8 @@ std::vector<SurfaceOpening> find_flat_regions(const Surface& surface, const std:
             for (const std::uint32_t t : face.triangles) is_taken[t] = true;
         }
     };
-    find(coplanar_degrees, largest_flatness);
-    find(crease_degrees, largest_bent_flatness);
+    find(coplanar_degrees, largest_flatness, 0);
+    find(crease_degrees, largest_bent_flatness, smallest_flat_share);
     return openings;
 }
 
