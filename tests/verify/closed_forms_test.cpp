@@ -56,6 +56,32 @@ TEST(PlaneStartup, satisfies_the_equation_of_motion) {
         }
 }
 
+TEST(ThinningPlane, reduces_to_the_parabola) {
+    const Rheology same = Newtonian{plane.viscosity};
+    for (const double y : {0.0, 0.0003, 0.001, 0.0017})
+        EXPECT_NEAR(thinning_plane_velocity(plane, same, y), plane_poiseuille_velocity(plane, y), 1e-13);
+    EXPECT_NEAR(thinning_plane_flow(plane, same), 2.0 / 3 * plane_poiseuille_peak(plane) * plane.gap, 1e-15);
+}
+
+// u = n/(n+1) (G/K)^(1/n) [h^((n+1)/n) - s^((n+1)/n)] where neither limit of the law is reached.
+TEST(ThinningPlane, is_the_power_laws_profile) {
+    const PowerLaw law{0.017, 0.708, 0, 1e6};
+    const double n = law.index, power = (n + 1) / n, half = plane.gap / 2;
+    for (const double y : {0.0001, 0.0005, 0.001}) {
+        const double exact = 1 / power * std::pow(plane.pressure_gradient / law.consistency, 1 / n) *
+                             (std::pow(half, power) - std::pow(half - y, power));
+        EXPECT_NEAR(thinning_plane_velocity(plane, law, y) / exact, 1, 1e-7);
+    }
+}
+
+TEST(ThinningPlane, flow_is_the_integral_of_its_velocity) {
+    for (const Rheology& law : {Rheology{blood_carreau_yasuda}, Rheology{blood_casson}, Rheology{blood_power_law}}) {
+        const double flow = integral(0, plane.gap, [&](double y) { return thinning_plane_velocity(plane, law, y); }, 200);
+        EXPECT_NEAR(thinning_plane_flow(plane, law) / flow, 1, 1e-5);
+        EXPECT_NEAR(viscosity(law, shear_rate_at(law, 0.7)) * shear_rate_at(law, 0.7), 0.7, 1e-13);
+    }
+}
+
 struct ChannelRow {
     double peak, time, mean, u[6];
 };

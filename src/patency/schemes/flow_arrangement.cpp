@@ -144,9 +144,11 @@ void Arrangement<T>::shift_particles() {
     for_each_index(fluid.size(), [&](std::size_t i) {
         if (fluid.opening[i] < 0) return;
         Vec3 shift = limited(shift_[i]);
-        if (fluid.opening[i] > 0) {   // what is pushed over a buffer's far end is lost, and nothing comes back for it
-            const Vec3& axis = end_of(domain_, i).normal;
-            shift -= std::max(0.0, dot(shift, axis)) * axis;
+        if (fluid.opening[i] > 0) {
+            // What is pushed over a buffer's far end is lost, and nothing comes back for it. Held back one way only,
+            // though, what trembles drifts the other way: into the vessel, step by step.                 THEORY.md (8.11)
+            const OpenEnd& end = end_of(domain_, i);
+            if (end.axial(fluid.position[i]) > 0.5 * end.buffer_length) shift -= dot(shift, end.normal) * end.normal;
         }
         fluid.position[i] += shift;
         fluid.velocity[i] += fluid.velocity_gradient[i] * shift;

@@ -168,7 +168,7 @@ private:
         const Vec3 v = fluid.velocity[i];
         const Mat3 correct = matrix(arrangement_.closure(i).velocity);   // per metre
         Mat3 gradient{{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}, {sum[6], sum[7], sum[8]}};
-        Vec3 laplacian{sum[9], sum[10], sum[11]}, first{sum[12], sum[13], sum[14]};
+        Vec3 laplacian{sum[9], sum[10], sum[11]}, first = mu * Vec3{sum[12], sum[13], sum[14]};
         const std::uint32_t k = arrangement_.wall_of(i);
         Slip slip;
         if (k != no_wall) {

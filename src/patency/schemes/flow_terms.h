@@ -117,8 +117,8 @@ PATENCY_INLINE P laplacian_weight(const Pair<P>& pair, const Quads<P>& diagonal,
 /// of length, (L_x, 1 or 0 for who dissipates), (L_y, 1 or 0 for who sees curvature), (L_z, .); of i also A (xx, yy, zz, .) and
 /// (xy, xz, yz, .), and the correction matrix C of the divergence in the same form. With b = (L_i - L_j) d / 2, what the
 /// curvature of the velocity takes from v_i - v_j, where i sees it:
-///   0-8   sum w (v_i - v_j + b) d, by rows      9-11  sum wA mu (v_j - v_i)                       THEORY.md (3.8)
-///   12-14 sum wA mu d                           15    sum w b.C d
+///   0-8   sum w (v_i - v_j + b) d, by rows      9-11  sum wA mu (v_j - v_i), mu of the pair       THEORY.md (3.8)
+///   12-14 sum wA d                              15    sum w b.C d
 ///   16-18 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
 /// and, where the viscosity varies:              19-21 sum w (mu_i - mu_j) d
 template <bool thinning>
@@ -130,9 +130,10 @@ struct Viscosity {
         const Quads<P>&vi = i.extra[0], &vj = j.extra[0];
         const P w = pair.t * pair.t * pair.t;
         const P u = vi.a - vj.a, v = vi.b - vj.b, q = vi.c - vj.c;
-        const P friction = laplacian_weight(pair, i.extra[4], i.extra[5]) * (P(0.5f) * (vi.d + vj.d));
+        const P weight = laplacian_weight(pair, i.extra[4], i.extra[5]);
+        const P friction = thinning ? weight * (P(0.5f) * (vi.d + vj.d)) : weight;
         sum[9] = fma(-friction, u, sum[9]), sum[10] = fma(-friction, v, sum[10]), sum[11] = fma(-friction, q, sum[11]);
-        sum[12] = fma(friction, d.x, sum[12]), sum[13] = fma(friction, d.y, sum[13]), sum[14] = fma(friction, d.z, sum[14]);
+        sum[12] = fma(weight, d.x, sum[12]), sum[13] = fma(weight, d.y, sum[13]), sum[14] = fma(weight, d.z, sum[14]);
         const auto half_way = [&](const Quads<P>& row) { return P(0.5f) * fma(row.a, d.x, fma(row.b, d.y, row.c * d.z)); };
         const P ix = half_way(i.extra[1]), iy = half_way(i.extra[2]), iz = half_way(i.extra[3]);
         const P jx = half_way(j.extra[1]), jy = half_way(j.extra[2]), jz = half_way(j.extra[3]);

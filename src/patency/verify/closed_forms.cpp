@@ -15,6 +15,15 @@ constexpr double pi = std::numbers::pi;
 // e^(-45) = 3e-20: what a decaying series leaves out.
 constexpr double negligible_exponent = 45;
 
+/// Simpson's rule with as many intervals as leave 1e-9 of a profile with a kink.
+template <class F>
+double integral(double from, double to, F f) {
+    const int n = 2000;
+    double sum = 0;
+    for (int i = 0; i <= n; ++i) sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f(from + (to - from) * i / n);
+    return sum * (to - from) / (3 * n);
+}
+
 }  // namespace
 
 double plane_poiseuille_velocity(const PlaneFlow& flow, double y) {
@@ -32,6 +41,23 @@ double plane_startup_velocity(const PlaneFlow& flow, double y, double time) {
         sum += std::sin(k * pi * y / d) * std::exp(-k * (k * decay)) / (double(k) * k * k);
     const double scale = 4 * flow.pressure_gradient * d * d / (flow.viscosity * pi * pi * pi);
     return plane_poiseuille_velocity(flow, y) - scale * sum;
+}
+
+double shear_rate_at(const Rheology& law, double stress) {
+    double low = 0, high = 1;
+    while (viscosity(law, high) * high < stress) low = high, high *= 2;
+    for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high))
+        (viscosity(law, middle) * middle < stress ? low : high) = middle;
+    return high;
+}
+
+double thinning_plane_velocity(const PlaneFlow& flow, const Rheology& law, double y) {
+    const double half = flow.gap / 2;
+    return integral(std::abs(y - half), half, [&](double s) { return shear_rate_at(law, flow.pressure_gradient * s); });
+}
+
+double thinning_plane_flow(const PlaneFlow& flow, const Rheology& law) {   // 2 int u ds, by parts
+    return 2 * integral(0, flow.gap / 2, [&](double s) { return s * shear_rate_at(law, flow.pressure_gradient * s); });
 }
 
 double plug_start_velocity(double y, double time) {

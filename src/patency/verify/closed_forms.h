@@ -27,6 +27,13 @@ double plane_poiseuille_peak(const PlaneFlow& flow);
 /// Velocity [m/s] at height y a time [s] >= 0 after the start from rest. THEORY (12.2), the series subtracted.
 double plane_startup_velocity(const PlaneFlow& flow, double y, double time);
 
+/// Shear rate [1/s] at which a law's stress mu(g) g [Pa], which must grow with g, is `stress` >= 0; to round-off.
+double shear_rate_at(const Rheology& law, double stress);
+/// Steady velocity [m/s] between the plates, and flow per depth [m2/s], of a liquid of any law in the place of the
+/// viscosity: u = int g ds from s = |y - d/2| to d/2 with mu(g) g = G s. THEORY (12.12)
+double thinning_plane_velocity(const PlaneFlow& flow, const Rheology& law, double y);
+double thinning_plane_flow(const PlaneFlow& flow, const Rheology& law);
+
 /// Channel started as a plug (Fukuchi's problem), all without units: y in half heights, -1..1; time nu t / h^2 > 0;
 /// velocity over the plug's. Driven so that the mean ends as 1. THEORY (12.3).
 double plug_start_velocity(double y, double time);

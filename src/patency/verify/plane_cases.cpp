@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "patency/stages/material.h"
 #include "patency/verify/closed_forms.h"
 #include "patency/verify/measures.h"
 #include "patency/verify/sampling_of_scene.h"
@@ -162,6 +163,56 @@ void pressure_driven_figures(const Results& results, FigureList& figures) {
     figures.add({"paper_flow_error_percent_d25", "percent", {}}, {"paper_d25"}, [&] { return 100 * std::abs(relative_flow("paper_d25") - 1); });
 }
 
+// Blood that thins, between two pressures
+
+void measure_thinning(Scene& scene, const RunContext& context, RunData& data) {
+    const PlaneFlow flow = plane_flow_of(scene);
+    const Rheology law = make_rheology(scene.config.blood);
+    const double until = scene.config.numerics.duration;
+    TimeMean mean;
+    run_until(scene, context, 0.7 * until);
+    const StraightAxis axis = axis_of(scene);
+    ProfileFit fit = make_plane_fit(scene);
+    run_until(scene, context, until, [&](const Scene& now, double dt) {
+        mean.add(mean_velocity_in_middle(now, axis) * flow.gap, dt);
+        add_plane_profile(now, 2, dt, fit);
+    });
+    put_profile(data, "steady", fit, [&](double y) { return thinning_plane_velocity(flow, law, y); });
+    put_number(data, "peak", thinning_plane_velocity(flow, law, flow.gap / 2));
+    put_number(data, "gap", flow.gap);
+    put_number(data, "flow", mean.value());
+    put_number(data, "exact_flow", thinning_plane_flow(flow, law));
+}
+
+void thinning_figures(const Results& results, FigureList& figures) {
+    const auto flow_error = [&](const std::string& run) {
+        return 100 * std::abs(results[run].number("flow") / results[run].number("exact_flow") - 1);
+    };
+    const std::array d25 = {std::string("carreau_yasuda"), std::string("casson"), std::string("power_law")};
+    for (const std::string& law : d25) {
+        figures.add({"flow_error_percent_" + law, "percent", Bar{1.0}}, {law}, [&] { return flow_error(law); });
+        figures.add({"rmsep_percent_" + law, "percent", Bar{1.0}}, {law}, [&] { return steady_rmsep(results[law]); });
+    }
+    figures.add({"rmsep_percent_d12", "percent", Bar{2.5}}, {"d12"}, [&] { return steady_rmsep(results["d12"]); });
+    figures.add({"rmsep_percent_d50", "percent", Bar{0.5}}, {"d50"}, [&] { return steady_rmsep(results["d50"]); });
+    figures.add({"order", "1", Bar{1.5, Sense::at_least}}, {"d12", "d50"},
+                [&] { return observed_order(steady_l2(results["d12"]), 1.0 / 12, steady_l2(results["d50"]), 1.0 / 50); });
+    figures.add({"paper_flow_error_percent", "percent", {}}, {"paper_d25"}, [&] { return flow_error("paper_d25"); });
+    figures.add({"paper_rmsep_percent", "percent", {}}, {"paper_d25"}, [&] { return steady_rmsep(results["paper_d25"]); });
+}
+
+std::vector<Picture> thinning_pictures(const Results& results) {
+    Plot plot{"y / d", "u / u_max", {}};
+    for (const std::string run : {"carreau_yasuda", "casson", "power_law"}) {
+        if (!results.has(run)) continue;
+        const RunData& r = results[run];
+        plot.curves.push_back(curve_of(r, "exact_steady", plot.curves.empty() ? "closed forms" : "", r.number("gap"), r.number("peak"), false));
+        plot.curves.push_back(curve_of(r, "velocity_steady", run, r.number("gap"), r.number("peak"), true));
+    }
+    if (plot.curves.empty()) return {};
+    return {{"thinning_profiles", "Profiles of three laws at d/25", format_plot(plot)}};
+}
+
 // Channel started as a plug
 
 void measure_channel(Scene& scene, const RunContext& context, RunData& data) {
@@ -263,6 +314,12 @@ std::vector<VerifyCase> plane_cases() {
          .measure = measure_pressure_driven,
          .figures = pressure_driven_figures,
          .pictures = {}},
+        {.name = "thinning",
+         .title = "Shear-thinning blood between two pressures: three laws, and Carreau-Yasuda's at three spacings",
+         .is_full = [](const std::string& run) { return is_paper(run) || run == "d50"; },
+         .measure = measure_thinning,
+         .figures = thinning_figures,
+         .pictures = thinning_pictures},
         {.name = "channel",
          .title = "Channel started as a plug, driven by pressure, at the series' instants",
          .is_full = is_paper,
