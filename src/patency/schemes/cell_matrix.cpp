@@ -193,6 +193,7 @@ CellMatrix::CellMatrix(const CellMesh& mesh) {
         coarse.column = graph.column;
         coarse.diagonal.resize(count);
         allocate(coarse, count);
+        coarse.first.resize(count), coarse.answer.resize(count);
         list_members(fine.parent, count, coarse.child_start, coarse.child);
         fine.entry_parent.resize(fine.column.size());
         for_each_index(fine.size(), [&](std::size_t i) {
@@ -268,9 +269,41 @@ void CellMatrix::cycle(std::size_t n) {
         coarse.b[p] = sum;
         coarse.x[p] = CellVector{};
     });
-    cycle(n + 1);
+    solve_coarse(n + 1);
     for_each_index(level.size(), [&](std::size_t i) { level.x[i] += coarse.x[level.parent[i]]; });
     sweep_there_and_back(level);
+}
+
+/// x about the inverse times b by one or two cycles, each as long as leaves least: joined cells are too stiff by a factor that grows from
+/// level to level, and one cycle alone would leave more of long waves the finer the cells are.          THEORY.md (18.13)
+void CellMatrix::solve_coarse(std::size_t n) {
+    constexpr double enough = 0.25;   // of the right side, or a second cycle follows
+    CellLevel& level = levels_[n];
+    cycle(n);
+    if (n + 1 == levels_.size()) return;   // swept until it is solved
+    CellVectors &first = level.first, &answer = level.answer;
+    first.swap(level.x);
+    for_each_index(level.size(), [&](std::size_t i) { answer[i] = row_times(level, first, i); });
+    const double square = product(answer, answer), before = product(level.b, level.b);
+    if (!(square > 0)) return level.x.swap(first);
+    const double share = product(answer, level.b) / square;
+    for_each_index(level.size(), [&](std::size_t i) { level.b[i] -= broadcast(float(share)) * answer[i]; });
+    const double left = product(level.b, level.b);
+    if (!(left > enough * enough * before)) {
+        for_each_index(level.size(), [&](std::size_t i) { level.x[i] = broadcast(float(share)) * first[i]; });
+        return;
+    }
+    std::fill(level.x.begin(), level.x.end(), CellVector{});
+    cycle(n);
+    CellVectors& second_answer = level.r;
+    for_each_index(level.size(), [&](std::size_t i) { second_answer[i] = row_times(level, level.x, i); });
+    // The second one orthogonal to the first.
+    const double along = product(second_answer, answer) / square;
+    const double rest = product(second_answer, second_answer) - along * along * square;
+    const double second_share = rest > 1e-12 * square ? product(second_answer, level.b) / rest : 0;   // b is orthogonal to the first
+    for_each_index(level.size(), [&](std::size_t i) {
+        level.x[i] = broadcast(float(share - second_share * along)) * first[i] + broadcast(float(second_share)) * level.x[i];
+    });
 }
 
 }   // namespace patency

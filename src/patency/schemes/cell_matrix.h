@@ -38,6 +38,7 @@ struct CellLevel {
     // No two neighbouring runs have one colour, so the order does not depend on the number of threads.
     std::vector<std::vector<std::uint32_t>> colours;
     CellVectors x, b, r;
+    CellVectors first, answer;   // of a coarser level's first cycle: what it found, and the matrix times that
 
     static constexpr std::uint32_t inside = 0xffffffff;
     std::size_t size() const { return diagonal.size(); }
@@ -53,13 +54,14 @@ public:
     void make_coarse();
 
     void multiply(const CellVectors& x, CellVectors& y) const;
-    /// One V-cycle from zero: x is about the inverse times b.
+    /// One cycle from zero: x is about the inverse times b.
     void precondition(const CellVectors& b, CellVectors& x);
 
     std::size_t level_count() const { return levels_.size(); }
 
 private:
     void cycle(std::size_t level);
+    void solve_coarse(std::size_t level);
     std::vector<CellLevel> levels_;
 };
 

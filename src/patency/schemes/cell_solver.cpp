@@ -196,9 +196,26 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
     throw fail("has not converged");
 }
 
+/// What was spent before counts too.
 void append(CellSolution& solution, const CellSolution& before) {
     solution.history.insert(solution.history.begin(), before.history.begin(), before.history.end());
     solution.linear_steps += before.linear_steps;
+}
+
+/// By the sharp transport, from the balance's fields. False where it finds no rest that would be an answer; `solution` is then only what
+/// was spent.
+bool solve_sharply(CellBalance& balance, CellMatrix& matrix, CellSolverSettings settings, CellSolution& solution) {
+    constexpr double enough = 1e-5;   // of what cells lack: means of the sharp one are nearer to the truth than the damped one's rest
+    settings.most_iterations = std::min(settings.most_iterations, settings.most_sharp_iterations);
+    balance.set_transport(cell_terms::sharp);
+    try {
+        CellSolution sharp = iterate(balance, matrix, settings);
+        append(sharp, solution);
+        solution = sharp;
+    } catch (const DivergedError&) {   // the damped one may stand where the sharp one runs away
+        return false;
+    }
+    return solution.is_converged || is_interrupted(solution) || std::max(balance.volume_residual(), balance.momentum_residual()) < enough;
 }
 
 }   // namespace
@@ -210,31 +227,30 @@ CellSolution solve_instant(CellBalance& balance, CellMatrix& matrix, const CellS
 }
 
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
-    constexpr double sharp_from = 1e-3;     // of what cells lack: the way there is the damped transport's
-    constexpr double sharp_enough = 1e-5;   // lacking less, means of the sharp one are nearer to the truth than the damped one's rest
-    CellSolverSettings rough = settings;
-    rough.tolerance = std::max(settings.tolerance, sharp_from);
-    balance.set_transport(cell_terms::damped);
-    CellSolution damped = iterate(balance, matrix, rough);
-    damped.is_damped = true;
-    if (!damped.is_converged || settings.tolerance >= sharp_from) return damped;
-
-    const CellFields start = balance.fields();
-    balance.set_transport(cell_terms::sharp);
-    try {
-        CellSolution sharp = iterate(balance, matrix, settings);
-        append(sharp, damped);
-        const double lacking = std::max(balance.volume_residual(), balance.momentum_residual());
-        if (sharp.is_converged || is_interrupted(sharp) || lacking < sharp_enough) return sharp;
-        damped = sharp;
-    } catch (const DivergedError&) {   // the damped one may stand where the sharp one runs away
+    constexpr double sharp_from = 1e-3;   // of what cells lack: the way there is the damped transport's
+    CellSolution spent;
+    if (settings.starts_sharp) {
+        const CellFields start = balance.fields();
+        const std::vector<double> ends = balance.end_memory();
+        if (solve_sharply(balance, matrix, settings, spent)) return spent;
+        balance.set_fields(start), balance.restore_end_memory(ends);
     }
-    balance.set_transport(cell_terms::damped);
+    const auto solve_damped = [&](double tolerance) {
+        CellSolverSettings own = settings;
+        own.tolerance = tolerance;
+        balance.set_transport(cell_terms::damped);
+        CellSolution damped = iterate(balance, matrix, own);
+        damped.is_damped = true;
+        append(damped, spent);
+        return damped;
+    };
+    const CellSolution damped = solve_damped(std::max(settings.tolerance, sharp_from));
+    if (!damped.is_converged) return damped;
+    spent = damped;
+    const CellFields start = balance.fields();
+    if (solve_sharply(balance, matrix, settings, spent)) return spent;
     balance.set_fields(start);
-    CellSolution solution = iterate(balance, matrix, settings);
-    append(solution, damped);
-    solution.is_damped = true;
-    return solution;
+    return solve_damped(settings.tolerance);
 }
 
 }   // namespace patency

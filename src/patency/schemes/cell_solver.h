@@ -12,7 +12,8 @@ namespace patency {
 struct CellSolverSettings {
     double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
     double imbalance_share = 0.3;   ///< of the tolerance, for what the openings let in over all that passes: results are told by it
-    int least_iterations = 0, most_iterations = 400;   ///< with either transport
+    int least_iterations = 0, most_iterations = 400, most_sharp_iterations = 400;   ///< these with the sharp transport
+    bool starts_sharp = false;   ///< the fields are those that coarser cells found with the sharp transport: it is tried first
     double first_courant = 5, courant = 1000, growth = 1.4;
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 40;
@@ -43,8 +44,8 @@ struct CellSolution {
 
 inline bool is_interrupted(const CellSolution& s) { return !s.is_converged && !s.is_settled && !s.is_given_up; }
 
-/// From the fields that the balance has: with the damped transport first, then the sharp one; where that does not come to rest, by the
-/// damped one. Throws DivergedError if it neither comes to the tolerance nor settles: what, and how far.
+/// From the fields that the balance has: with the damped transport first, unless it `starts_sharp`, then the sharp one; where that does not
+/// come to rest, by the damped one. Throws DivergedError if it neither comes to the tolerance nor settles: what, and how far.
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings);
 
 /// With the transport and the time derivative that the balance has, to the tolerance. Throws DivergedError if it does not come there.

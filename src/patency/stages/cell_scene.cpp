@@ -22,7 +22,8 @@ namespace {
 constexpr double steady_time = 1e6;         // s: when every rise from rest is over
 constexpr double coarsening = 1.6;          // of the spacing of the first solution: a quarter of the cells
 constexpr double fewest_across = 6;         // of the narrowest place, in a first solution
-constexpr double coarse_tolerance = 1e-3;   // of it: less than what the coarse cells err by
+constexpr double coarse_tolerance = 3e-3;   // of it: less than what the coarse cells err by
+constexpr int coarse_sharp_steps = 60;      // of it: without rest by then, the finer cells start like the coarse ones
 constexpr int fading = 60;                  // steps
 
 OpenEnd::Kind kind_of(const EndLaw& law) {
@@ -151,10 +152,11 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
         auto scene = make_cell_scene(config, lumen, field ? make_cell_points(lumen, field->scaled(coarser_by))
                                                           : make_cell_points(lumen, coarser_by * numerics.spacing));
         scene->vessel = vessel;
-        CellSolverSettings settings{.tolerance = tolerance, .gives_up = numerics.without_rest == deck::WithoutRest::follow};
+        CellSolverSettings settings{.tolerance = tolerance, .starts_sharp = coarser && !coarser->solution.is_damped, .gives_up = numerics.without_rest == deck::WithoutRest::follow};
         if (settings.gives_up) settings.mixes_below = 0;   // steps that are mixed find a steady flow also where none would last
         // Nor would finer cells find rest: only what the coarse ones' fields lack on them is to fade.
         if (coarser && coarser->solution.is_given_up) settings.most_iterations = fading;
+        if (tolerance == coarse_tolerance) settings.most_sharp_iterations = coarse_sharp_steps;
         if (watch) settings.interrupted = [&] { return watch(*scene); };
         try {
             solve_scene(*scene, coarser, settings);
