@@ -191,10 +191,10 @@ private:
         laplacian += unit * (gradient * first);
         const double nu = material_.kinematic_viscosity(), scale = nu / (unit * unit);
         Vec3 viscous = scale * laplacian;
+        Vec3 thinning{};   // grad mu, relative; walls have no viscosity
         if constexpr (sums == terms::Viscosity<true>::sums) {
-            // The other half of the stress of a viscosity that varies: (grad v)^T grad mu.         THEORY.md (3.7)
-            const Vec3 thinning = correct * Vec3{sum[19], sum[20], sum[21]};
-            viscous += nu * (transpose(gradient) * thinning);
+            thinning = matrix(arrangement_.closure(i).pressure) * Vec3{sum[19], sum[20], sum[21]};
+            viscous += nu * (transpose(gradient) * thinning);   // the other half of the stress          THEORY.md (3.7)
         }
         if (k != no_wall && !numerics_.free_slip) {
             // At a wall that does not slip the blood moves with the wall, so the viscous force there balances the
@@ -206,6 +206,9 @@ private:
             const Vec3 second = tangential(balance, normal) -
                                 (nu * mu * double(wall[34]) / double(wall[30])) * tangential(slope, normal);
             viscous += double(wall_viscosity_[k][1]) * second;
+            // A part of that balance is what grad mu makes of the slope: it reaches farther behind the wall.
+            const double s = arrangement_.geometry()[i].d, farther = 0.5 * s * s * double(wall_viscosity_[k][0]);
+            viscous += (farther * nu * dot(thinning, normal)) * tangential(slope, normal);   // THEORY.md (5.3)
         }
         const double upwind = numerics_.velocity_dissipation * speed * kernel_.slope() * numerics_.cell() * unit;
         if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[16], sum[17], sum[18]};

@@ -131,7 +131,8 @@ struct Viscosity {
         const P w = pair.t * pair.t * pair.t;
         const P u = vi.a - vj.a, v = vi.b - vj.b, q = vi.c - vj.c;
         const P weight = laplacian_weight(pair, i.extra[4], i.extra[5]);
-        const P friction = thinning ? weight * (P(0.5f) * (vi.d + vj.d)) : weight;
+        P friction = weight;
+        if constexpr (thinning) friction *= P(2) * vi.d * vj.d / (vi.d + vj.d);   // one behind the other, for one stress
         sum[9] = fma(-friction, u, sum[9]), sum[10] = fma(-friction, v, sum[10]), sum[11] = fma(-friction, q, sum[11]);
         sum[12] = fma(weight, d.x, sum[12]), sum[13] = fma(weight, d.y, sum[13]), sum[14] = fma(weight, d.z, sum[14]);
         const auto half_way = [&](const Quads<P>& row) { return P(0.5f) * fma(row.a, d.x, fma(row.b, d.y, row.c * d.z)); };
