@@ -22,7 +22,7 @@ namespace {
 constexpr double steady_time = 1e6;         // s: when every rise from rest is over
 constexpr double coarsening = 1.6;          // of the spacing of the first solution: a quarter of the cells
 constexpr double fewest_across = 6;         // of the narrowest place, in a first solution
-constexpr double coarse_tolerance = 3e-3;   // of it: less than what the coarse cells err by
+constexpr double coarse_tolerance = 1e-2;   // of it: less than what the coarse cells err by
 constexpr int coarse_sharp_steps = 60;      // of it: without rest by then, the finer cells start like the coarse ones
 constexpr int fading = 60;                  // steps
 
