@@ -59,5 +59,19 @@ TEST(Svg, a_plot_holds_every_point_and_nothing_else_is_drawn_of_nothing) {
     EXPECT_THROW(format_plot({"x", "y", {}}), UsageError);
 }
 
+TEST(Svg, a_curve_without_a_name_goes_with_the_one_before_it) {
+    const std::string svg = format_plot({"x", "y", {{"exact", {0, 1}, {0, 1}}, {"", {0, 1}, {1, 2}}, {"found", {0, 1}, {0, 2}, true}}});
+    const auto count = [&](const std::string& what) {
+        std::size_t n = 0;
+        for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++n;
+        return n;
+    };
+    EXPECT_EQ(count("width=\"10\" height=\"10\""), 2u) << "lines of the legend";
+    const std::size_t first = svg.find("<polyline"), second = svg.find("<polyline", first + 1);
+    const auto colour = [&](std::size_t at) { return svg.substr(svg.find("stroke=\"#", at), 16); };
+    EXPECT_EQ(colour(first), colour(second));
+    EXPECT_NE(colour(first), colour(svg.find("<circle")));
+}
+
 }  // namespace
 }  // namespace patency

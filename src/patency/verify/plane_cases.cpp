@@ -203,12 +203,13 @@ void thinning_figures(const Results& results, FigureList& figures) {
 
 std::vector<Picture> thinning_pictures(const Results& results) {
     Plot plot{"y / d", "u / u_max", {}};
-    for (const std::string run : {"carreau_yasuda", "casson", "power_law"}) {
-        if (!results.has(run)) continue;
-        const RunData& r = results[run];
-        plot.curves.push_back(curve_of(r, "exact_steady", plot.curves.empty() ? "closed forms" : "", r.number("gap"), r.number("peak"), false));
-        plot.curves.push_back(curve_of(r, "velocity_steady", run, r.number("gap"), r.number("peak"), true));
-    }
+    for (const bool is_exact : {true, false})
+        for (const std::string run : {"carreau_yasuda", "casson", "power_law"}) {
+            if (!results.has(run)) continue;
+            const RunData& r = results[run];
+            const std::string label = !is_exact ? run : plot.curves.empty() ? "closed forms" : "";
+            plot.curves.push_back(curve_of(r, is_exact ? "exact_steady" : "velocity_steady", label, r.number("gap"), r.number("peak"), !is_exact));
+        }
     if (plot.curves.empty()) return {};
     return {{"thinning_profiles", "Profiles of three laws at d/25", format_plot(plot)}};
 }

@@ -77,8 +77,10 @@ std::string format_plot(const Plot& plot) {
     out += text((left + width - right) / 2, height - 10, plot.x_label);
     out += text(14, (top + height - bottom) / 2, plot.y_label, "middle",
                 fmt::format(" transform=\"rotate(-90 14 {:.1f})\"", (top + height - bottom) / 2));
-    for (std::size_t k = 0; k < plot.curves.size(); ++k) {
-        const Curve& curve = plot.curves[k];
+    std::size_t named = 0;
+    for (const Curve& curve : plot.curves) {
+        if (!curve.label.empty()) ++named;
+        const std::size_t k = named > 0 ? named - 1 : 0;
         const char* colour = colours[k % colours.size()];
         if (curve.is_dotted) {
             for (std::size_t i = 0; i < curve.x.size(); ++i)
@@ -88,6 +90,7 @@ std::string format_plot(const Plot& plot) {
             for (std::size_t i = 0; i < curve.x.size(); ++i) out += fmt::format("{:.1f},{:.1f} ", px(curve.x[i]), py(curve.y[i]));
             out += "\"/>\n";
         }
+        if (curve.label.empty()) continue;
         const double y = top + 16 + 16 * double(k);
         out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"10\" height=\"10\" fill=\"{}\"/>\n", left + 8, y - 9, colour);
         out += text(left + 24, y, curve.label, "start");

@@ -15,7 +15,7 @@ struct Picture {
 };
 
 struct Curve {
-    std::string label;
+    std::string label;        ///< none: one of those before it, in their colour
     std::vector<double> x, y;
     bool is_dotted = false;   ///< points instead of a line
 };
