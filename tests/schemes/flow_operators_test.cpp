@@ -256,4 +256,43 @@ TEST(OperatorsAtWalls, AShearBetweenPlatesIsExactUpToThem) {
     EXPECT_EQ(checked, 120);
 }
 
+/// How far the viscous force on the layer at a wall is off the pressure gradient that it balances, over that; mu doubles within a
+/// quarter of the gap.
+double error_at_wall_of_thinning_blood(int across) {
+    SmallFlow flow;
+    make_channel(flow, 12, across, true, OpenEnd::Kind::velocity, OpenEnd::Kind::velocity);
+    flow.numerics.shift = 0;
+    const double gap = across * dp, slope = 2000, mu_0 = flow.blood.viscosity;   // Pa/m
+    const auto from_wall = [&](double y) { return std::min(y, gap - y); };
+    const auto mu = [&](double s) { return mu_0 * (1 + 4 * s / gap); };
+    // mu du/ds = slope (gap/2 - s), integrated.
+    const auto velocity = [&](double s) {
+        const double a = 4 / gap;
+        return slope / mu_0 * ((gap / 2 + 1 / a) * std::log(1 + a * s) / a - s / a);
+    };
+    flow.blood.viscosity = mu(gap / 2);                           // the largest
+    flow.blood.viscosity_at = [mu_0](double) { return mu_0; };   // for the next step, which is not taken
+    for (OpenEnd& end : flow.ends) end.velocity = [&](const Vec3& x, double) { return Vec3{velocity(from_wall(x.y)), 0, 0}; };
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+        const double s = from_wall(flow.fluid.position[i].y);
+        flow.fluid.velocity[i] = {velocity(s), 0, 0}, flow.fluid.viscosity[i] = mu(s);
+        flow.fluid.pressure_gradient[i] = {-slope, 0, 0};
+    }
+    flow.make(Precision::double_precision)->step(0, 1e-15);
+    double worst = 0;
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+        const Vec3& x = flow.fluid.position[i];
+        if (x.x < 0 || x.x > 12 * dp || from_wall(x.y) > dp) continue;
+        worst = std::max(worst, std::abs(flow.fluid.slow_acceleration[i].x * flow.blood.density / slope + 1));
+    }
+    return worst;
+}
+
+// The wall has no viscosity to tell how mu goes on behind it.                                    THEORY.md (5.3)
+TEST(OperatorsAtWalls, TheLayerAtAWallFeelsTheWholeStressOfThinningBlood) {
+    const double coarse = error_at_wall_of_thinning_blood(16), fine = error_at_wall_of_thinning_blood(32);
+    EXPECT_LE(coarse, 0.12);
+    EXPECT_LE(fine, 0.7 * coarse);   // without the part of grad mu it is 0.47 at any spacing
+}
+
 }  // namespace

@@ -202,20 +202,24 @@ void append(CellSolution& solution, const CellSolution& before) {
     solution.linear_steps += before.linear_steps;
 }
 
-/// By the sharp transport, from the balance's fields. False where it finds no rest that would be an answer; `solution` is then only what
-/// was spent.
+/// By the sharp transport, from the balance's fields. False where it finds no rest that would be an answer: then the fields are again
+/// those of the start, and `solution` is only what was spent.
 bool solve_sharply(CellBalance& balance, CellMatrix& matrix, CellSolverSettings settings, CellSolution& solution) {
     constexpr double enough = 1e-5;   // of what cells lack: means of the sharp one are nearer to the truth than the damped one's rest
     settings.most_iterations = std::min(settings.most_iterations, settings.most_sharp_iterations);
+    const CellFields start = balance.fields();
+    const std::vector<double> ends = balance.end_memory();
     balance.set_transport(cell_terms::sharp);
     try {
         CellSolution sharp = iterate(balance, matrix, settings);
         append(sharp, solution);
         solution = sharp;
+        const double lacking = std::max(balance.volume_residual(), balance.momentum_residual());
+        if (solution.is_converged || is_interrupted(solution) || lacking < enough) return true;
     } catch (const DivergedError&) {   // the damped one may stand where the sharp one runs away
-        return false;
     }
-    return solution.is_converged || is_interrupted(solution) || std::max(balance.volume_residual(), balance.momentum_residual()) < enough;
+    balance.set_fields(start), balance.restore_end_memory(ends);
+    return false;
 }
 
 }   // namespace
@@ -229,12 +233,7 @@ CellSolution solve_instant(CellBalance& balance, CellMatrix& matrix, const CellS
 CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
     constexpr double sharp_from = 1e-3;   // of what cells lack: the way there is the damped transport's
     CellSolution spent;
-    if (settings.starts_sharp) {
-        const CellFields start = balance.fields();
-        const std::vector<double> ends = balance.end_memory();
-        if (solve_sharply(balance, matrix, settings, spent)) return spent;
-        balance.set_fields(start), balance.restore_end_memory(ends);
-    }
+    if (settings.starts_sharp && solve_sharply(balance, matrix, settings, spent)) return spent;
     const auto solve_damped = [&](double tolerance) {
         CellSolverSettings own = settings;
         own.tolerance = tolerance;
@@ -247,9 +246,7 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
     const CellSolution damped = solve_damped(std::max(settings.tolerance, sharp_from));
     if (!damped.is_converged) return damped;
     spent = damped;
-    const CellFields start = balance.fields();
     if (solve_sharply(balance, matrix, settings, spent)) return spent;
-    balance.set_fields(start);
     return solve_damped(settings.tolerance);
 }
 

@@ -148,15 +148,17 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
     std::optional<SpacingField> field;
     if (numerics.follows_vessel()) field = make_cell_spacing(lumen, vessel.get(), numerics);
     const double across = field ? *numerics.across : lumen.narrowest / numerics.spacing;
-    const auto solved = [&](double coarser_by, const CellScene* coarser, double tolerance) {
+    const auto solved = [&](double coarser_by, const CellScene* coarser) {
         auto scene = make_cell_scene(config, lumen, field ? make_cell_points(lumen, field->scaled(coarser_by))
                                                           : make_cell_points(lumen, coarser_by * numerics.spacing));
         scene->vessel = vessel;
-        CellSolverSettings settings{.tolerance = tolerance, .starts_sharp = coarser && !coarser->solution.is_damped, .gives_up = numerics.without_rest == deck::WithoutRest::follow};
+        CellSolverSettings settings{.tolerance = coarser_by > 1 ? coarse_tolerance : CellSolverSettings{}.tolerance,
+                                    .starts_sharp = coarser && !coarser->solution.is_damped,
+                                    .gives_up = numerics.without_rest == deck::WithoutRest::follow};
         if (settings.gives_up) settings.mixes_below = 0;   // steps that are mixed find a steady flow also where none would last
         // Nor would finer cells find rest: only what the coarse ones' fields lack on them is to fade.
         if (coarser && coarser->solution.is_given_up) settings.most_iterations = fading;
-        if (tolerance == coarse_tolerance) settings.most_sharp_iterations = coarse_sharp_steps;
+        if (coarser_by > 1) settings.most_sharp_iterations = coarse_sharp_steps;
         if (watch) settings.interrupted = [&] { return watch(*scene); };
         try {
             solve_scene(*scene, coarser, settings);
@@ -168,10 +170,10 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
     };
     std::unique_ptr<CellScene> coarse;
     if (across > fewest_across * coarsening) {
-        coarse = solved(coarsening, nullptr, coarse_tolerance);
+        coarse = solved(coarsening, nullptr);
         if (is_interrupted(coarse->solution)) return coarse;
     }
-    return solved(1, coarse.get(), CellSolverSettings{}.tolerance);
+    return solved(1, coarse.get());
 }
 
 }   // namespace patency
