@@ -53,6 +53,15 @@ template <class R>
 PATENCY_INLINE void fuse(R& a, const R& b, const R& c) {
     for (unsigned l = 0; l < sizeof(R) / sizeof(a[0]); ++l) a[l] = std::fma(a[l], b[l], c[l]);
 }
+/// a > b ? a : b, which is also what the processors' instructions mean by it.
+template <class R>
+PATENCY_INLINE void take_larger(R& a, const R& b) {
+    a = a > b ? a : b;
+}
+template <class R>
+PATENCY_INLINE void take_smaller(R& a, const R& b) {
+    a = a < b ? a : b;
+}
 #if defined(__SSE2__)
 PATENCY_INLINE void take_root(__m128& a) { a = _mm_sqrt_ps(a); }
 PATENCY_INLINE void take_root(__m128d& a) { a = _mm_sqrt_pd(a); }
@@ -68,6 +77,10 @@ PATENCY_INLINE void fuse(__m256d& a, const __m256d& b, const __m256d& c) { a = _
 #if defined(__AVX512F__)
 PATENCY_INLINE void take_root(__m512& a) { a = _mm512_sqrt_ps(a); }
 PATENCY_INLINE void take_root(__m512d& a) { a = _mm512_sqrt_pd(a); }
+PATENCY_INLINE void take_larger(__m512& a, const __m512& b) { a = _mm512_max_ps(a, b); }
+PATENCY_INLINE void take_larger(__m512d& a, const __m512d& b) { a = _mm512_max_pd(a, b); }
+PATENCY_INLINE void take_smaller(__m512& a, const __m512& b) { a = _mm512_min_ps(a, b); }
+PATENCY_INLINE void take_smaller(__m512d& a, const __m512d& b) { a = _mm512_min_pd(a, b); }
 PATENCY_INLINE void fuse(__m512& a, const __m512& b, const __m512& c) { a = _mm512_fmadd_ps(a, b, c); }
 PATENCY_INLINE void fuse(__m512d& a, const __m512d& b, const __m512d& c) { a = _mm512_fmadd_pd(a, b, c); }
 #endif
@@ -95,8 +108,8 @@ struct Pack {
     PATENCY_INLINE Pack& operator+=(Pack b) { v += b.v; return *this; }
     PATENCY_INLINE Pack& operator-=(Pack b) { v -= b.v; return *this; }
     PATENCY_INLINE Pack& operator*=(Pack b) { v *= b.v; return *this; }
-    PATENCY_INLINE friend Pack max(Pack a, Pack b) { return Pack(a.v > b.v ? a.v : b.v); }
-    PATENCY_INLINE friend Pack min(Pack a, Pack b) { return Pack(a.v < b.v ? a.v : b.v); }
+    PATENCY_INLINE friend Pack max(Pack a, Pack b) { detail::take_larger(a.v, b.v); return a; }
+    PATENCY_INLINE friend Pack min(Pack a, Pack b) { detail::take_smaller(a.v, b.v); return a; }
     PATENCY_INLINE friend Pack sqrt(Pack a) { detail::take_root(a.v); return a; }
     /// a b + c with one rounding.
     PATENCY_INLINE friend Pack fma(Pack a, Pack b, Pack c) { detail::fuse(a.v, b.v, c.v); return a; }

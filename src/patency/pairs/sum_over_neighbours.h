@@ -78,28 +78,33 @@ template <class T, int W, class Term, class Finish>
 void sum_packed(const Neighbours& rows, T inverse_support, const Records<T, Term::own_extras>& own,
                 const Records<T, Term::extras>& other, const Term& term, const Finish& finish) {
     using P = Pack<T, W>;
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t b = 0; b < rows.block_count(); ++b) {
-        const Neighbours::Block& block = rows.block(b);
-        const std::size_t groups = block.group_start.size() - 1;
-        for (std::size_t g = 0; g < groups; ++g) {
-            const std::uint32_t* members = &block.members[g * W];
-            Quads<P> xi, xj;
-            const auto i = load_sample<T, W, Term::own_extras>(own, members, xi);
-            std::array<P, std::size_t(Term::sums)> sum;
-            for (auto& s : sum) s = P(T(0));
-            const std::uint32_t* end = block.entries.data() + block.group_start[g + 1];
-            for (const std::uint32_t* entry = block.entries.data() + block.group_start[g]; entry < end; entry += W) {
-                const auto j = load_sample<T, W, Term::extras>(other, entry, xj);
-                term(make_pair<P, T>(xi, xj, inverse_support), i, j, sum);
+    constexpr std::size_t sums = std::size_t(Term::sums);
+#pragma omp parallel
+    {
+        AlignedVector<T> results;   // of a block, by groups, sums and lanes
+#pragma omp for schedule(dynamic, 1)
+        for (std::size_t b = 0; b < rows.block_count(); ++b) {
+            const Neighbours::Block& block = rows.block(b);
+            const std::size_t groups = block.group_start.size() - 1;
+            results.reset(groups * sums * W);
+            for (std::size_t g = 0; g < groups; ++g) {
+                Quads<P> xi, xj;
+                const auto i = load_sample<T, W, Term::own_extras>(own, &block.members[g * W], xi);
+                std::array<P, sums> sum;
+                for (auto& s : sum) s = P(T(0));
+                const std::uint32_t* end = block.entries.data() + block.group_start[g + 1];
+                for (const std::uint32_t* entry = block.entries.data() + block.group_start[g]; entry < end; entry += W) {
+                    const auto j = load_sample<T, W, Term::extras>(other, entry, xj);
+                    term(make_pair<P, T>(xi, xj, inverse_support), i, j, sum);
+                }
+                for (std::size_t s = 0; s < sums; ++s) sum[s].store(&results[(g * sums + s) * W]);
             }
-            alignas(64) T value[std::size_t(Term::sums)][W];
-            for (std::size_t s = 0; s < sum.size(); ++s) sum[s].store(value[s]);
-            const std::size_t live = block.member_count - g * W < std::size_t(W) ? block.member_count - g * W : std::size_t(W);
-            for (std::size_t l = 0; l < live; ++l) {
-                std::array<T, std::size_t(Term::sums)> total;
-                for (std::size_t s = 0; s < total.size(); ++s) total[s] = value[s][l];
-                finish(members[l], total);
+            // What is made of the sums streams through many arrays: in one go, it does not wait for them in every group.
+            for (std::size_t m = 0; m < block.member_count; ++m) {
+                const T* value = &results[m / W * sums * W + m % W];
+                std::array<T, sums> total;
+                for (std::size_t s = 0; s < sums; ++s) total[s] = value[s * W];
+                finish(block.members[m], total);
             }
         }
     }
