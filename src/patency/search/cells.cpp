@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -144,6 +145,29 @@ void Cells::index(const Frame& frame, double spacing, std::span<const Vec3> posi
     column_start_.assign(columns + 1, 0);
     for (std::size_t i = 0; i < count_; ++i) ++column_start_[key_[i] + 1];
     for (std::size_t q = 0; q < columns; ++q) column_start_[q + 1] += column_start_[q];
+}
+
+/// Cuts ranges of columns down to the particles whose bins lie in [first_bin, last_bin]; none is empty. Bisections wait for memory at
+/// every step, and without branches, which would be guessed wrong half the time, nothing runs ahead: all at once, they
+/// wait together.
+void Cells::narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count, std::int32_t first_bin, std::int32_t last_bin) const {
+    std::array<Range, ranges_at_once> found;   // how many are below the first, and not above the last
+    std::uint32_t longest = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        found[k] = {ranges[k].begin, ranges[k].begin};
+        longest = std::max(longest, ranges[k].end - ranges[k].begin);
+    }
+    for (std::uint32_t step = std::bit_floor(longest); step > 0; step /= 2)
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint32_t end = ranges[k].end;
+            const auto advance = [&](std::uint32_t& at, std::int32_t bin) {
+                const std::uint32_t next = std::min(at + step, end);
+                at = bins_[next - 1] < bin ? next : at;
+            };
+            advance(found[k].begin, first_bin);
+            advance(found[k].end, last_bin + 1);
+        }
+    std::copy_n(found.begin(), count, ranges.begin());
 }
 
 }  // namespace patency

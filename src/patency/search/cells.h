@@ -71,13 +71,12 @@ public:
                       std::int64_t reach, Visit visit) const;
 
 private:
-    /// Of the particles [begin, end) of a column, the first whose bin is not below `bin`; without branches, which would
-    /// be guessed wrong half the time.
-    std::uint32_t first_not_below(std::uint32_t begin, std::uint32_t end, std::int32_t bin) const {
-        for (std::uint32_t n = end - begin; n > 0; n /= 2)
-            begin += (n + 1) / 2 * std::uint32_t(bins_[begin + n / 2] < bin);
-        return begin;
-    }
+    /// Part of a column's particles.
+    struct Range {
+        std::uint32_t begin, end;
+    };
+    static constexpr std::size_t ranges_at_once = 16;
+    void narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count, std::int32_t first_bin, std::int32_t last_bin) const;
     std::int64_t bin_of(std::int64_t along) const { return (along - origin_[0]) / bin_; }
     void measure(const Frame& frame, double spacing);
     std::uint32_t column_of(const std::array<std::int32_t, 3>& x) const;
@@ -109,18 +108,27 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
         return left > high[axis] ? left - high[axis] : right < low[axis] ? low[axis] - right : std::int64_t(0);
     };
     const std::int32_t first_bin = std::int32_t(bin_of(low[0] - reach) - 1), last_bin = std::int32_t(bin_of(high[0] + reach) + 1);
+    std::array<Range, ranges_at_once> ranges;
+    std::size_t count = 0;
+    const auto visit_ranges = [&] {
+        narrow(ranges, count, first_bin, last_bin);
+        for (std::size_t k = 0; k < count; ++k)
+            if (ranges[k].begin < ranges[k].end) visit(ranges[k].begin, ranges[k].end);
+        count = 0;
+    };
     for (std::int64_t b = b0; b <= b1; ++b) {
         const std::int64_t gap_b = gap(b, 1);
         for (std::int64_t a = a0; a <= a1; ++a) {
             const std::int64_t gap_a = gap(a, 0);
             if (gap_a >= reach || gap_b >= reach || gap_a * gap_a + gap_b * gap_b >= r2) continue;   // (squares overflow)
             const std::size_t column = std::size_t(b * columns_[0] + a);
-            const std::uint32_t begin = column_start_[column], end = column_start_[column + 1];
-            // The second search could start at lo, but need not wait for it.
-            const std::uint32_t lo = first_not_below(begin, end, first_bin), hi = first_not_below(begin, end, last_bin + 1);
-            if (lo < hi) visit(lo, hi);
+            const Range all{column_start_[column], column_start_[column + 1]};
+            if (all.begin == all.end) continue;
+            ranges[count++] = all;
+            if (count == ranges.size()) visit_ranges();
         }
     }
+    visit_ranges();
 }
 
 }  // namespace patency
