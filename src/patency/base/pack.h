@@ -157,16 +157,16 @@ PATENCY_INLINE Quads<Pack<float, 16>> load_quads(const Quad<float>* base, const 
     return {P(low(lo01, lo23)), P(high(lo01, lo23)), P(low(hi01, hi23)), P(high(hi01, hi23))};
 }
 PATENCY_INLINE Quads<Pack<double, 8>> load_quads(const Quad<double>* base, const std::uint32_t* index) {
-    const auto at = [&](int k) { return _mm256_load_pd(&base[index[k]].a); };
-    __m512d z[4];   // lanes k and k + 4 in one register; lane order is restored by the unpack of (0,1), (2,3)
-    for (int k = 0; k < 4; ++k) z[k] = _mm512_mask_broadcast_f64x4(_mm512_castpd256_pd512(at(k)), 0xf0, at(k + 4));
-    const __m512d ac01 = _mm512_unpacklo_pd(z[0], z[1]), bd01 = _mm512_unpackhi_pd(z[0], z[1]);
-    const __m512d ac23 = _mm512_unpacklo_pd(z[2], z[3]), bd23 = _mm512_unpackhi_pd(z[2], z[3]);
-    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
-    const __m512i second = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    // Lanes k and k + 2 in one register, so that whole halves of registers, exchanged, bring the lanes back into order.
+    const auto pair = [&](int k) {
+        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(&base[index[k]].a)), _mm256_load_pd(&base[index[k + 2]].a), 1);
+    };
+    const __m512d z0 = pair(0), z1 = pair(1), z4 = pair(4), z5 = pair(5);
+    const __m512d ac0 = _mm512_unpacklo_pd(z0, z1), bd0 = _mm512_unpackhi_pd(z0, z1);
+    const __m512d ac4 = _mm512_unpacklo_pd(z4, z5), bd4 = _mm512_unpackhi_pd(z4, z5);
     using P = Pack<double, 8>;
-    return {P(_mm512_permutex2var_pd(ac01, first, ac23)), P(_mm512_permutex2var_pd(bd01, first, bd23)),
-            P(_mm512_permutex2var_pd(ac01, second, ac23)), P(_mm512_permutex2var_pd(bd01, second, bd23))};
+    return {P(_mm512_shuffle_f64x2(ac0, ac4, 0x88)), P(_mm512_shuffle_f64x2(bd0, bd4, 0x88)),
+            P(_mm512_shuffle_f64x2(ac0, ac4, 0xdd)), P(_mm512_shuffle_f64x2(bd0, bd4, 0xdd))};
 }
 #elif defined(__AVX2__)
 PATENCY_INLINE Quads<Pack<float, 8>> load_quads(const Quad<float>* base, const std::uint32_t* index) {

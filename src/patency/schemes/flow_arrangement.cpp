@@ -179,7 +179,7 @@ template <class T>
 void Arrangement<T>::compute_corrections() {
     using P = Pack<double>;
     const std::size_t n = domain_.fluid.size();
-    closures_.reset(n + 1), laplacian_diagonal_.reset(n + 1), laplacian_mixed_.reset(n + 1);
+    blood_corrections_.reset(n), closures_.reset(n), laplacian_diagonal_.reset(n + 1), laplacian_mixed_.reset(n + 1);
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += P::lanes) {
             const std::size_t count = std::min<std::size_t>(P::lanes, end - first);
@@ -201,7 +201,7 @@ void Arrangement<T>::compute_corrections() {
     laplacian_diagonal_[n] = laplacian_mixed_[n] = zero_record<T>();
 }
 
-/// Writes the closure of particle i; returns its moments over blood and wall.
+/// Writes the corrections of gradients of particle i; returns its moments over blood and wall.
 template <class T>
 std::array<double, terms::moments> Arrangement<T>::correct_gradients(std::size_t i) {
     std::array<double, terms::moments> m;
@@ -214,11 +214,9 @@ std::array<double, terms::moments> Arrangement<T>::correct_gradients(std::size_t
         mirror = {wall[27], wall[28], wall[29]};
     }
     const Mat3 all = inverse(second_moment(m));
-    Closure<T>& c = closures_[i];
-    c.pressure = symmetric<T>((1 / unit()) * own);
-    c.velocity = symmetric<T>((1 / unit()) * all);
+    blood_corrections_[i] = symmetric<T>((1 / unit()) * own);
     const Vec3 by_wall = (1 / unit()) * (all * mirror);
-    c.wall = {T(by_wall.x), T(by_wall.y), T(by_wall.z)};
+    closures_[i] = {symmetric<T>((1 / unit()) * all), {T(by_wall.x), T(by_wall.y), T(by_wall.z)}};
     return m;
 }
 

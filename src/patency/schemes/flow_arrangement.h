@@ -15,13 +15,11 @@ Mat3 matrix(const Sym<T>& s) {
     return {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
 }
 
-/// What the acoustic steps need of a particle, frozen over an advection step.
+/// How a particle's sums over blood become the divergence of its velocity, where a wall is near too.
 template <class T>
-struct alignas(64) Closure {
-    Sym<T> pressure;   ///< correction over blood alone, per metre
-    Sym<T> velocity;   ///< correction over blood and wall, per metre
-    Vec<T> wall;       ///< divergence by the wall: -(v - v_surface) . wall
-    T pad = 0;
+struct Closure {
+    Sym<T> correction;   ///< over blood and wall, per metre
+    Vec<T> wall;         ///< divergence by the wall: -(v - v_surface) . wall
 };
 
 /// Velocity relative to the wall's surface: all of it, or its normal part if the wall slips.
@@ -53,6 +51,8 @@ public:
     const AlignedVector<Quad<T>>& geometry() const { return geometry_; }             ///< (x, distance to the wall)
     const AlignedVector<Quad<T>>& wall_geometry() const { return wall_geometry_; }   ///< (x, depth)
     const Moments& moments(std::size_t i) const { return moments_[i]; }
+    // What acoustic steps need, frozen over an advection step: each reads what it needs and nothing else, for memory is slow.
+    const Sym<T>& blood_correction(std::size_t i) const { return blood_corrections_[i]; }   ///< over blood alone, per metre
     const Closure<T>& closure(std::size_t i) const { return closures_[i]; }
     /// The matrix of the Laplacian's weight, (xx, yy, zz, .) and (xy, xz, yz, .).                    THEORY.md (3.6)
     const AlignedVector<Quad<T>>& laplacian_diagonal() const { return laplacian_diagonal_; }
@@ -103,6 +103,7 @@ private:
     std::vector<Moments> moments_;
     std::vector<WallMoments> wall_moments_;
     std::vector<std::uint32_t> wall_of_;   // index into wall_moments_, per particle
+    AlignedVector<Sym<T>> blood_corrections_;
     AlignedVector<Closure<T>> closures_;
     AlignedVector<Quad<T>> laplacian_diagonal_, laplacian_mixed_;
 };

@@ -94,7 +94,7 @@ private:
             gradient_[0][i] = vector_record(g.x, T(dissipating_share(i)));
             gradient_[1][i] = vector_record(g.y, T(sees_curvature(i)));
             gradient_[2][i] = vector_record(g.z, T(0));
-            const Sym<T>& c = arrangement_.closure(i).velocity;
+            const Sym<T>& c = arrangement_.closure(i).correction;
             correction_[0][i] = {c.xx, c.yy, c.zz, T(0)};
             correction_[1][i] = {c.xy, c.xz, c.yz, T(0)};
         });
@@ -166,7 +166,7 @@ private:
         const double unit = arrangement_.unit();
         const double mu = fluid.viscosity[i] / material_.viscosity;   // relative, as in the sums
         const Vec3 v = fluid.velocity[i];
-        const Mat3 correct = matrix(arrangement_.closure(i).velocity);   // per metre
+        const Mat3 correct = matrix(arrangement_.closure(i).correction);   // per metre
         Mat3 gradient{{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}, {sum[6], sum[7], sum[8]}};
         Vec3 laplacian{sum[9], sum[10], sum[11]}, first = mu * Vec3{sum[12], sum[13], sum[14]};
         const std::uint32_t k = arrangement_.wall_of(i);
@@ -193,7 +193,7 @@ private:
         Vec3 viscous = scale * laplacian;
         Vec3 thinning{};   // grad mu, relative; walls have no viscosity
         if constexpr (sums == terms::Viscosity<true>::sums) {
-            thinning = matrix(arrangement_.closure(i).pressure) * Vec3{sum[19], sum[20], sum[21]};
+            thinning = matrix(arrangement_.blood_correction(i)) * Vec3{sum[19], sum[20], sum[21]};
             viscous += nu * (transpose(gradient) * thinning);   // the other half of the stress          THEORY.md (3.7)
         }
         if (k != no_wall && !numerics_.free_slip) {
@@ -236,7 +236,7 @@ private:
         arrangement_.sum_over_blood(
             records_of(pressure_), records_of(pressure_), terms::PressureGradient{},
             [&](std::uint32_t i, const std::array<T, 3>& g) {
-                const Vec<T> gradient = arrangement_.closure(i).pressure * Vec<T>{g[0], g[1], g[2]};
+                const Vec<T> gradient = arrangement_.blood_correction(i) * Vec<T>{g[0], g[1], g[2]};
                 fluid.pressure_gradient[i] = {gradient.x, gradient.y, gradient.z};
                 const Vec<T> fast = inverse_density * gradient;
                 const Vec3 a = fluid.slow_acceleration[i] + Vec3{fast.x, fast.y, fast.z};
@@ -261,8 +261,8 @@ private:
         arrangement_.sum_over_blood(
             records, records, terms::Compression{}, [&](std::uint32_t i, const std::array<T, 7>& s) {
                 const Closure<T>& b = arrangement_.closure(i);
-                T divergence = b.velocity.xx * s[0] + b.velocity.yy * s[1] + b.velocity.zz * s[2] +
-                               b.velocity.xy * s[3] + b.velocity.xz * s[4] + b.velocity.yz * s[5];
+                T divergence = b.correction.xx * s[0] + b.correction.yy * s[1] + b.correction.zz * s[2] +
+                               b.correction.xy * s[3] + b.correction.xz * s[4] + b.correction.yz * s[5];
                 if (const std::uint32_t k = arrangement_.wall_of(i); k != no_wall) {
                     const Vec3 slip = fluid.velocity[i] - surface_velocity_of(i, k);
                     divergence += T(slip.x) * b.wall.x + T(slip.y) * b.wall.y + T(slip.z) * b.wall.z;

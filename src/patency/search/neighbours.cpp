@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t particles_per_block = 512;   // a multiple of every lane count
 constexpr std::size_t chunk = 16;                  // consecutive particles that share their candidates
+constexpr std::size_t seekers_at_once = 4;
 // Candidates are tested in float; pairs this much beyond reach are kept, where the kernel is zero anyway.
 constexpr float reach_margin = 1.0001f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -78,16 +79,30 @@ void collect(const Cells& cells, std::uint32_t begin, std::uint32_t end, const s
     out.count = count;
 }
 
-/// Writes the candidates within reach of the particle to row, and up to a pack more; returns how many.
-std::size_t select(const Candidates& from, const std::array<float, 3>& at, float reach2, std::uint32_t* row) {
-    std::size_t count = 0;
+/// A particle that looks for its row.
+struct Seeker {
+    std::array<float, 3> at{};        // relative to the chunk's reference
+    std::size_t self = 0;             // its place among the candidates, itself left out; their number if it is none of them
+    std::vector<std::uint32_t> row;   // with room for all candidates and a pack more
+    std::size_t length = 0;           // of the row
+};
+
+/// Writes the candidates within reach of each seeker to its row. Several at once, for the candidates are loaded but once.
+void select(const Candidates& from, float reach2, std::array<Seeker, seekers_at_once>& seekers) {
+    std::array<std::size_t, seekers_at_once> count{};
+    std::array<std::uint32_t*, seekers_at_once> row;
+    for (std::size_t s = 0; s < seekers_at_once; ++s) row[s] = seekers[s].row.data();
     for (std::size_t k = 0; k < from.count; k += width) {
-        const Floats dx = Floats::load(&from.x[k]) - at[0], dy = Floats::load(&from.y[k]) - at[1],
-                     dz = Floats::load(&from.z[k]) - at[2];
-        const Floats r2 = fma(dz, dz, fma(dy, dy, dx * dx));
-        count += store_chosen(Indices::load(&from.index[k]), lanes_below(r2, Floats(reach2)), row + count);
+        const Floats x = Floats::load(&from.x[k]), y = Floats::load(&from.y[k]), z = Floats::load(&from.z[k]);
+        const Indices index = Indices::load(&from.index[k]);
+        for (std::size_t s = 0; s < seekers_at_once; ++s) {
+            const Floats dx = x - seekers[s].at[0], dy = y - seekers[s].at[1], dz = z - seekers[s].at[2];
+            const Floats r2 = fma(dz, dz, fma(dy, dy, dx * dx));
+            const std::uint32_t itself = std::uint32_t(std::uint64_t(1) << std::min<std::size_t>(seekers[s].self - k, 63));
+            count[s] += store_chosen(index, lanes_below(r2, Floats(reach2)) & ~itself, row[s] + count[s]);
+        }
     }
-    return count;
+    for (std::size_t s = 0; s < seekers_at_once; ++s) seekers[s].length = count[s];
 }
 
 /// The group that is being filled: rows each by itself, one per lane.
@@ -194,6 +209,7 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
 #pragma omp parallel
     {
         Candidates candidates;
+        std::array<Seeker, seekers_at_once> seekers;
         OpenGroup group;
         group.rows.resize(std::size_t(lanes));
         group.lengths.resize(std::size_t(lanes));
@@ -217,20 +233,22 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
                 }
                 collect_chunk(frame, box, other, reach_integer, reach2, reference, candidates);
                 std::size_t self = candidates.find(std::uint32_t(begin));
-                for (std::size_t i = begin; i < end; ++i) {
-                    std::array<float, 3> x;
-                    for (std::size_t k = 0; k < 3; ++k) x[k] = relative(own.coordinate(int(k))[i], reference[k]);
-                    auto& row = group.rows[group.members.size()];
-                    if (row.size() < candidates.count + width) row.resize(candidates.count + width);
-                    // A particle is no neighbour of its own: it is put out of sight, if it is there at all.
-                    const std::size_t hidden = same && candidates.index[self] == i ? self++ : candidates.count;
-                    const float x_hidden = std::exchange(candidates.x[hidden], infinity);
-                    const std::size_t length = select(candidates, x, reach2, row.data());
-                    candidates.x[hidden] = x_hidden;
-                    if (!same && length == 0) continue;
-                    group.lengths[group.members.size()] = length;
-                    group.members.push_back(std::uint32_t(i));
-                    if (group.members.size() == std::size_t(lanes)) close_group();
+                for (std::size_t i = begin; i < end; i += seekers_at_once) {
+                    for (std::size_t s = 0; s < seekers_at_once; ++s) {
+                        const std::size_t who = std::min(i + s, end - 1);   // the last one may be there twice
+                        for (std::size_t k = 0; k < 3; ++k) seekers[s].at[k] = relative(own.coordinate(int(k))[who], reference[k]);
+                        seekers[s].self = same && candidates.index[self] == who ? self++ : candidates.count;
+                        if (seekers[s].row.size() < candidates.count + width) seekers[s].row.resize(candidates.count + width);
+                    }
+                    select(candidates, reach2, seekers);
+                    for (std::size_t s = 0; s < seekers_at_once && i + s < end; ++s) {
+                        if (!same && seekers[s].length == 0) continue;
+                        const std::size_t place = group.members.size();
+                        std::swap(group.rows[place], seekers[s].row);
+                        group.lengths[place] = seekers[s].length;
+                        group.members.push_back(std::uint32_t(i + s));
+                        if (group.members.size() == std::size_t(lanes)) close_group();
+                    }
                 }
             }
             if (!group.members.empty()) close_group();
