@@ -20,6 +20,18 @@ function(patency_compile target folder)
   target_precompile_headers(${target} REUSE_FROM patency_precompiled_${way})
 endfunction()
 
+# What takes longest in folders that arrange is to read and instantiate the same libraries anew in every file: several are read
+# at once. Not in other builds, which therefore see what a file forgets to include.
+set(PATENCY_TOGETHER io stages report verify app)
+function(patency_compile_together target folder)
+  if(CMAKE_BUILD_TYPE STREQUAL Release AND folder IN_LIST PATENCY_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
+set(alone io/surface_picture verify/vessel_sections)   # whose own names are others' too
+list(TRANSFORM alone REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/src/patency/\\1.cpp")
+set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
 # Its reference loops are timed.
 file(GLOB timed CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/verify/bench_*.cpp)
 set_source_files_properties(${timed} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)

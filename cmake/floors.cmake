@@ -15,6 +15,7 @@ foreach(folder ${folders})
   add_library(patency_${folder} STATIC ${sources})
   target_link_libraries(patency_${folder} PRIVATE patency_flags PUBLIC ${PATENCY_FLOORS} OpenMP::OpenMP_CXX fmt::fmt)
   patency_compile(patency_${folder} ${folder})
+  patency_compile_together(patency_${folder} ${folder})
   list(PREPEND PATENCY_FLOORS patency_${folder})
 endforeach()
 

@@ -18,6 +18,7 @@ file(RELATIVE_PATH data /${PATENCY_PROGRAM_FOLDER} /${CMAKE_INSTALL_DATADIR}/pat
 target_compile_definitions(patency PRIVATE PATENCY_VERSION="${PROJECT_VERSION}" PATENCY_ISA="${PATENCY_ISA}"
   PATENCY_DATA="${data}" PATENCY_SOURCE_DIR="${developers_tree}")
 patency_compile(patency app)
+patency_compile_together(patency app)
 set_target_properties(patency PROPERTIES OUTPUT_NAME ${PATENCY_PROGRAM} RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 file(GLOB chooser_sources CONFIGURE_DEPENDS app/chooser/*.cpp)

@@ -55,6 +55,21 @@ numerics: {{spacing: "0.4 mm", {}{}}}
     return deck::read_case(folder / "tube.yaml");
 }
 
+TEST(VesselFlow, IsTheSameToTheBitAtAnotherLevel) {
+    const auto gauge = build_scene(bifurcation());
+    const auto raised = build_scene(bifurcation({"openings.outlet_large.pressure=80 mmHg", "openings.outlet_medium.distal_pressure=80 mmHg",
+                                                 "openings.outlet_small.distal_pressure=80 mmHg"}));
+    constexpr double level = 80 * 133.322387415;
+    for (Scene* s : {gauge.get(), raised.get()}) advance(*s, {.until = 5e-4});
+    ASSERT_EQ(gauge->fluid.size(), raised->fluid.size());
+    for (std::size_t i = 0; i < gauge->fluid.size(); ++i) {
+        ASSERT_EQ(gauge->fluid.velocity[i], raised->fluid.velocity[i]);
+        ASSERT_NEAR(gauge->pressure_of(i) + level, raised->pressure_of(i), 1e-6);
+    }
+    for (std::size_t k = 0; k < gauge->laws.size(); ++k)
+        EXPECT_NEAR(gauge->laws[k].pressure_time + level * gauge->time, raised->laws[k].pressure_time, 1e-8);
+}
+
 const Scene& scene() {
     static const auto made = build_scene(bifurcation());
     return *made;

@@ -25,6 +25,15 @@ TEST(Measures, order_of_a_power) {
     EXPECT_NEAR(observed_order(3 * std::pow(0.1, 1.7), 0.1, 3 * std::pow(0.02, 1.7), 0.02), 1.7, 1e-12);
 }
 
+TEST(Measures, extrapolates_a_parabola_and_bounds_its_error) {
+    const auto value = [](double h) { return 7 + 2 * h * h; };
+    const SpacingStudy study{{0.4, 0.3, 0.2}, {value(0.4), value(0.3), value(0.2)}};
+    EXPECT_NEAR(study.extrapolated(), 7, 1e-12);
+    EXPECT_NEAR(study.convergence_index_percent(), 1.25 * 100 * (value(0.2) - 7) / value(0.2), 1e-10);
+    const SpacingStudy rough{{0.4, 0.3, 0.2}, {value(0.4) + 1, value(0.3), value(0.2)}};   // what the coarse ones say counts as well
+    EXPECT_NEAR(rough.convergence_index_percent(), 1.25 * 100 * (1 + 2 * 0.07) / 0.07 * 0.04 / value(0.2), 1e-10);
+}
+
 TEST(Measures, amplitude_of_a_wave_among_others) {
     // Two whole periods, uneven samples: t = 2 x + 0.1 sin(2 pi x) / pi still covers 0..2 smoothly and periodically, so
     // the sum converges fast; 400 samples leave (w h)^2 / 12 = 8e-5 at worst.

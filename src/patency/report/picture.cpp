@@ -73,7 +73,7 @@ std::vector<Vec3> point_colours(const SurfaceScene& scene) {
 
 class Canvas {
 public:
-    Canvas(std::size_t width, std::size_t height) : width_(width), height_(height), depth_(width * height, -INFINITY), colour_(width * height) {}
+    Canvas(std::size_t across, std::size_t down) : width_(across), height_(down), depth_(across * down, -INFINITY), colour_(across * down) {}
 
     void fill(const Corner& a, const Corner& b, const Corner& c) {
         const double twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);

@@ -87,6 +87,27 @@ std::unique_ptr<Frame> make_frame(const Scene& scene) {
     return std::make_unique<Frame>(box.low, box.high, support_of(scene.numerics), periodic);
 }
 
+/// Takes from the deck's pressures the lowest that it imposes. The same flow at another level is then the same numbers, bit for
+/// bit, and not nearly the same, of which particles soon make a different flow.
+void set_datum(Scene& scene) {
+    // Levels that move or begin at zero, and what is asked for without a level, stay as they are.
+    if (scene.config.scheme() == deck::SchemeName::cells || scene.config.numerics.pressure_reference != deck::PressureReference::moving) return;
+    double lowest = INFINITY;
+    for (const auto& [name, opening] : scene.config.openings) {
+        using deck::OpeningType;
+        if (opening.type == OpeningType::velocity || opening.type == OpeningType::flow) continue;
+        if (opening.type == OpeningType::coronary || opening.waveform || opening.ramp > 0) return;
+        lowest = std::min(lowest, opening.type == OpeningType::pressure ? *opening.pressure : opening.distal_pressure);
+    }
+    if (!std::isfinite(lowest)) return;
+    scene.datum = lowest;
+    for (auto& [name, opening] : scene.config.openings) {
+        if (opening.pressure) *opening.pressure -= lowest;
+        if (opening.initial_pressure) *opening.initial_pressure -= lowest;
+        opening.distal_pressure -= lowest;
+    }
+}
+
 /// The vessel behind the lumen and its estimate, which knows the narrowest place that nobody named.
 void follow(Scene& scene) {
     scene.estimate = estimate_flow(scene.config, *scene.vessel);
@@ -168,8 +189,10 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
     if (config.has_vessel()) scene->vessel = known ? *known : read_vessel(config);
     scene->lumen = make_lumen(config, config.geometry.surface ? &*scene->vessel : nullptr);
-    if (scene->vessel) follow(*scene);
+    if (scene->vessel) expect_same_openings(config, scene->vessel->openings);
     tune_outlets(scene->config, scene->lumen.openings);
+    set_datum(*scene);
+    if (scene->vessel) follow(*scene);
     expect_wall_names(*scene);
     scene->material = make_material(config.blood);
     scene->numerics = make_numerics(config, scene->lumen);

@@ -27,7 +27,7 @@ void expect_no_collapse(const Scene& scene, const FlowStep& step, double longest
 /// Adds what the ends did in the last acoustic step to their integrals.
 void settle(Scene& scene) {
     for (std::size_t k = 0; k < scene.ends.size(); ++k)
-        scene.laws[k].pressure_time += scene.unsettled * (scene.ends[k].mean_pressure + scene.reference_pressure);
+        scene.laws[k].pressure_time += scene.unsettled * (scene.ends[k].mean_pressure + scene.level());
     scene.unsettled = 0;
 }
 

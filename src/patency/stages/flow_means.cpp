@@ -73,7 +73,7 @@ BulkValues bulk_values(const Scene& scene) {
     return {.largest_speed = largest_of(fluid.size(), [&](std::size_t i) { return inside(i) ? speed(i) : 0.0; }),
             .mean_speed = sum(speed) / volume,
             .kinetic_energy = 0.5 * scene.material.density * sum([&](std::size_t i) { return speed(i) * speed(i); }),
-            .mean_pressure = sum([&](std::size_t i) { return fluid.pressure[i]; }) / volume + scene.reference_pressure};
+            .mean_pressure = sum([&](std::size_t i) { return fluid.pressure[i]; }) / volume + scene.level()};
 }
 
 Json make_summary(const Scene& scene, const FlowMark& from) {
@@ -95,7 +95,7 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
                                         {"area_m2", scene.ends[k].area}};
         if (const auto* behind = scene.laws[k].outlet ? std::get_if<Resistance>(&*scene.laws[k].outlet) : nullptr) {
             openings[scene.ends[k].name]["resistance_pa_s_per_m3"] = behind->resistance;
-            openings[scene.ends[k].name]["distal_pressure_pa"] = behind->distal_pressure;
+            openings[scene.ends[k].name]["distal_pressure_pa"] = behind->distal_pressure + scene.datum;
         }
     }
     summary["openings"] = openings;

@@ -104,7 +104,7 @@ void FlowRecorder::write_probes(const Scene& scene) {
     std::vector<double> row{scene.time};
     for (const deck::Probe& probe : scene.config.output.probes) {   // one by one: they may lie far apart
         const FlowSample sample = sample_scene(scene, {&probe.point, 1}).front();
-        for (const double value : {sample.velocity.x, sample.velocity.y, sample.velocity.z, sample.pressure + scene.reference_pressure})
+        for (const double value : {sample.velocity.x, sample.velocity.y, sample.velocity.z, sample.pressure + scene.level()})
             row.push_back(value);
     }
     write_row(scene.ends.empty() ? 0 : 1, row);
@@ -117,7 +117,7 @@ void FlowRecorder::write_profile(const Scene& scene, std::size_t k) {
     const std::vector<FlowSample> samples = sample_scene(scene, places);
     for (std::size_t p = 0; p < places.size(); ++p) {
         const Vec3 &x = places[p], &v = samples[p].velocity;
-        const double row[] = {scene.time, norm(x - profile.from), x.x, x.y, x.z, v.x, v.y, v.z, samples[p].pressure + scene.reference_pressure};
+        const double row[] = {scene.time, norm(x - profile.from), x.x, x.y, x.z, v.x, v.y, v.z, samples[p].pressure + scene.level()};
         write_row(first_profile_ + k, row);
     }
 }

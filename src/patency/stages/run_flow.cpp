@@ -192,7 +192,7 @@ private:
     void write_frame() {
         const auto file = frame_file("fluid", frames_->size());
         write_particles(stage_.folder.file(file.string()), scene_->fluid,
-                        {.time = scene_->time, .fields = config_.output.fields, .pressure_level = scene_->reference_pressure});
+                        {.time = scene_->time, .fields = config_.output.fields, .pressure_level = scene_->level()});
         frames_->add(scene_->time, file);
     }
 
@@ -227,7 +227,7 @@ private:
         for (std::size_t i = 0; i < fluid.size(); ++i) badness[i] = norm(fluid.velocity[i]) + 0 * (fluid.pressure[i] + norm(fluid.position[i]));
         const std::vector<std::uint32_t> worst = worst_of(badness);
         const auto path = stage_.folder.file("offenders.vtp");
-        write_particles(path, fluid, {.time = scene_->time, .only = worst, .pressure_level = scene_->reference_pressure, .non_finite = NonFinite::allow});
+        write_particles(path, fluid, {.time = scene_->time, .only = worst, .pressure_level = scene_->level(), .non_finite = NonFinite::allow});
         return fmt::format("; at {:.6g} s. The fastest particles are in {}{}", scene_->time, path.string(),
                            stage_.folder.has_checkpoint("flow") ? ", the last good checkpoint is kept" : "");
     }

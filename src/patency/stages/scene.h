@@ -26,7 +26,7 @@ struct Scene {
     Scene(const Scene&) = delete;   // the scheme refers to the particles
     Scene& operator=(const Scene&) = delete;
 
-    deck::Case config;
+    deck::Case config;   ///< its pressures less the datum
     Lumen lumen{.distance = everywhere(), .openings = {}, .volume = 0, .wall_area = 0, .bounds = {}};
     std::optional<Vessel> vessel{};       ///< followed; of surfaces and networks
     std::optional<Estimate> estimate{};   ///< of the vessel
@@ -43,13 +43,15 @@ struct Scene {
     std::optional<WallParts> wall_parts;             ///< of a scheme that knows the flow at the wall itself
 
     double time = 0;                 ///< [s]
-    double reference_pressure = 0;   ///< p_ref: fluid.pressure is above it [Pa]
+    double datum = 0;                ///< what the deck's pressures are above in config, laws and estimate: never moves [Pa]
+    double reference_pressure = 0;   ///< p_ref, above the datum: fluid.pressure and the ends' are above it [Pa]
     double last_dt = 0;              ///< of the last advection step [s]
     double unsettled = 0;            ///< length of an acoustic step that the ends' integrals lack; 0 between steps [s]
     std::int64_t acoustic_steps = 0, advection_steps = 0;
 
-    /// Pressure of a particle as the deck counts it [Pa].
-    double pressure_of(std::size_t i) const { return fluid.pressure[i] + reference_pressure; }
+    /// Added to pressures of fluid and ends: as the deck counts them [Pa].
+    double level() const { return datum + reference_pressure; }
+    double pressure_of(std::size_t i) const { return fluid.pressure[i] + level(); }
 };
 
 }  // namespace patency

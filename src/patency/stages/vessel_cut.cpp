@@ -63,7 +63,7 @@ void VesselCut::sample(const Scene& scene) {
     const auto samples = sample_flow(scene.fluid, *scene.frame, places_, sampling_reach(scene), false, &hint);
     for (std::size_t k = 0; k < samples.size(); ++k) {
         velocity_[k] += samples[k].velocity;
-        pressure_[k] += samples[k].pressure + scene.reference_pressure;
+        pressure_[k] += samples[k].pressure + scene.level();
         squares_[k] += dot(samples[k].velocity, samples[k].velocity);
     }
     instants_ += 1;

@@ -71,12 +71,12 @@ VesselRecorder::VesselRecorder(const Scene& scene)
 void VesselRecorder::sample(const Scene& scene) {
     const WallHint hint = wall_hint(scene);
     const LocalLength reach = sampling_reach(scene);
-    flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint), scene.reference_pressure);
+    flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint), scene.level());
     const WallFlow at_wall = wall_flow(scene, wall_.places, hint);
     shear_.add(at_wall.shear_stress, 1);
     cut_.sample(scene);
     wall_pressure_.resize(at_wall.pressure.size(), 0);
-    for (std::size_t k = 0; k < wall_pressure_.size(); ++k) wall_pressure_[k] += at_wall.pressure[k] + scene.reference_pressure;
+    for (std::size_t k = 0; k < wall_pressure_.size(); ++k) wall_pressure_[k] += at_wall.pressure[k] + scene.level();
 }
 
 std::vector<double> VesselRecorder::wall_pressure() const {

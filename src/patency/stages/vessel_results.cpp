@@ -144,7 +144,7 @@ std::vector<double> row_of(const Scene& scene, const VesselRecorder& recorder, c
     const Vec3& x = station.plane.centre;
     std::vector<double> row{station.arc, second, x.x, x.y, x.z, s.flow.area, s.flow.flow, s.flow.pressure, s.flow.mean_velocity,
                             s.flow.peak_velocity, s.deviation.flow, s.deviation.pressure, s.across,
-                            estimated_pressure(*scene.estimate, station.branch, station.arc)};
+                            estimated_pressure(*scene.estimate, station.branch, station.arc) + scene.datum};
     if (s.ffr) row.push_back(*s.ffr);
     return row;
 }
@@ -231,7 +231,7 @@ void write_streamlines(const OutputFolder& folder, const Scene& scene, const Ves
             cell.push_back(std::uint32_t(data.points.size()));
             data.points.push_back(line.points[k]);
             velocity.values.insert(velocity.values.end(), {line.velocity[k].x, line.velocity[k].y, line.velocity[k].z});
-            pressure.values.push_back(line.pressure[k] + scene.reference_pressure);
+            pressure.values.push_back(line.pressure[k] + scene.level());
         }
     }
     data.arrays = {velocity, pressure};

@@ -11,6 +11,7 @@
 #include "patency/base/errors.h"
 #include "patency/stages/flow.h"
 #include "patency/stages/flow_window.h"
+#include "patency/verify/measures.h"
 #include "patency/verify/sampling_of_scene.h"
 #include "patency/verify/vessel_sections.h"
 
@@ -145,6 +146,16 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
         const double a = combined_error(results["d40"], sections), b = combined_error(results["d30"], sections), c = combined_error(results["d20"], sections);
         return std::max(b / a, c / b);
     });
+    const auto study = [&results](const auto& value) {
+        return SpacingStudy{{0.4 * mm, 0.3 * mm, 0.2 * mm}, {value(results["d40"]), value(results["d30"]), value(results["d20"])}};
+    };
+    const auto extrapolate = [&](const std::string& key, const std::string& unit, const std::function<double(const RunData&)>& value) {
+        figures.add({key + "_extrapolated", unit, {}}, {"d20", "d30", "d40"}, [=] { return study(value).extrapolated(); });
+        figures.add({key + "_grid_convergence_index_percent", "percent", {}}, {"d20", "d30", "d40"}, [=] { return study(value).convergence_index_percent(); });
+    };
+    extrapolate("drop", "Pa", drop);
+    for (const OutletReference& o : outlets)
+        extrapolate(fmt::format("flow_{}", o.key), "m^3/s", [name = std::string("flow_") + o.name](const RunData& d) { return number(d, name); });
     figures.add({"offset_change_percent", "percent", Bar{0.1}}, {"d40", "d40_level"}, [&] {
         double worst = 0;
         for (const char* list : {"flow", "peak", "wss"}) {

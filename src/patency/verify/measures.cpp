@@ -27,6 +27,19 @@ double observed_order(double error_1, double spacing_1, double error_2, double s
     return std::log(error_1 / error_2) / std::log(spacing_1 / spacing_2);
 }
 
+double SpacingStudy::extrapolated() const {
+    const double ratio = spacings[1] / spacings[2];
+    return values[2] + (values[2] - values[1]) / (ratio * ratio - 1);
+}
+
+double SpacingStudy::convergence_index_percent() const {
+    const auto square = [](double h) { return h * h; };
+    const double finest = square(spacings[2]);
+    const double by_fine = std::abs(values[2] - values[1]) / (square(spacings[1]) - finest) * finest;
+    const double by_coarse = std::abs(values[1] - values[0]) / (square(spacings[0]) - square(spacings[1])) * finest;
+    return 100 * 1.25 * std::max(by_fine, by_coarse) / std::abs(values[2]);
+}
+
 std::complex<double> amplitude(std::span<const double> times, std::span<const double> values,
                                double angular_frequency) {
     assert(times.size() == values.size() && times.size() > 1);

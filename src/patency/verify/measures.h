@@ -3,6 +3,7 @@
 // Lists that belong together have equal, non-zero length.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <span>
 
@@ -17,6 +18,16 @@ double l2_percent(std::span<const double> computed, std::span<const double> exac
 
 /// log(error_1 / error_2) / log(spacing_1 / spacing_2), THEORY (13.3).
 double observed_order(double error_1, double spacing_1, double error_2, double spacing_2);
+
+/// Spacings from coarse to fine, and what was found with them. THEORY (13.11), of second order.
+struct SpacingStudy {
+    std::array<double, 3> spacings, values;
+
+    double extrapolated() const;   ///< Richardson's value at no spacing, from the two finest
+    /// Roache's grid convergence index, percent of the finest value: a quarter more than its distance from the extrapolated one,
+    /// by the two finest or by the two coarsest, whichever is more.
+    double convergence_index_percent() const;
+};
 
 /// Complex amplitude a of a signal, f = mean + Re(a e^(i w t)) + other modes, THEORY (13.4): from samples at increasing
 /// times [s], spaced evenly or not, that cover a whole number of periods from the first to the last. w in rad/s.

@@ -90,9 +90,9 @@ double j2_path_error() {
         double lateral = 1, plastic = 0, equivalent = 0;   // exact: log strain = stress / E + plastic
         double at = 0;
         for (const double to : {0.08, 0.0795, 0.15, 0.149, 0.05, 0.0505, -0.1}) {
-            constexpr int steps = 20;
-            for (int k = 1; k <= steps; ++k) {
-                const double strain = at + (to - at) * k / steps, axial = std::exp(strain);
+            constexpr int parts = 20;
+            for (int k = 1; k <= parts; ++k) {
+                const double strain = at + (to - at) * k / parts, axial = std::exp(strain);
                 const UniaxialPoint p = pull_uniaxially([&](const Mat3& F) { return law.stress(F, state).kirchhoff; }, axial, lateral, m.young());
                 lateral = p.lateral;
                 state = law.stress({{axial, 0, 0}, {0, lateral, 0}, {0, 0, lateral}}, state).state;

@@ -6,6 +6,7 @@
 #include "patency/stages/cell_scene.h"
 #include "patency/stages/cell_vessel.h"
 #include "patency/verify/cpu_time.h"
+#include "patency/verify/measures.h"
 #include "patency/verify/vessel_sections.h"
 #include "patency/verify/verify_case.h"
 
@@ -70,13 +71,6 @@ double pressure_at(const RunData& run, const std::vector<VesselSection>& section
     return run.list("pressure").at(found);
 }
 
-/// Roache's grid convergence index, percent of the finest value, of three grids with spacings in n12 > n16 > n20: safety 1.25,
-/// second order.
-double grid_convergence_index(double coarse, double middle, double fine) {
-    const double r = 20.0 / 16.0, change = std::max(std::abs(fine - middle), std::abs(middle - coarse) * (r * r - 1) / (std::pow(16.0 / 12.0, 2) - 1) / (r * r));
-    return 100 * 1.25 * change / (r * r - 1) / std::abs(fine);
-}
-
 void bifurcation_figures(const Results& results, FigureList& figures) {
     std::vector<VesselSection> sections;
     for (const char* run : {"n12", "n16", "n20"})
@@ -130,8 +124,11 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
         add("flow_imbalance", "1", Bar{1e-6}, [](const RunData& d) { return d.number("imbalance"); });
         add("cpu_s", "s", {}, [](const RunData& d) { return d.number("cpu_s"); });
     }
-    figures.add({"drop_grid_convergence_index_percent", "percent", {}}, {"n12", "n16", "n20"},
-                [&results, drop] { return grid_convergence_index(drop(results["n12"]), drop(results["n16"]), drop(results["n20"])); });
+    const auto study = [&results, drop] {
+        return SpacingStudy{{1.0 / 12, 1.0 / 16, 1.0 / 20}, {drop(results["n12"]), drop(results["n16"]), drop(results["n20"])}};
+    };
+    figures.add({"drop_extrapolated", "Pa", {}}, {"n12", "n16", "n20"}, [study] { return study().extrapolated(); });
+    figures.add({"drop_grid_convergence_index_percent", "percent", {}}, {"n12", "n16", "n20"}, [study] { return study().convergence_index_percent(); });
 }
 
 // --- the left coronary tree ---

@@ -88,7 +88,7 @@ SectionsMeasure::SectionsMeasure(const Scene& scene, std::vector<VesselSection> 
 
 void SectionsMeasure::sample(const Scene& scene) {
     const LocalLength reach = sampling_reach(scene);
-    flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint_), scene.reference_pressure);
+    flows_.add(flow_through_sections(scene.fluid, *scene.frame, grids_, reach, hint_), scene.level());
     shear_.add(wall_flow(scene, all_, hint_).shear_stress, 1);
 }
 

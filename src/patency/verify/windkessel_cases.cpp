@@ -29,7 +29,7 @@ void record_openings(const Scene& scene, RunData& data) {
     data.lists["times"].push_back(scene.time);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         data.lists["flow_" + scene.ends[k].name].push_back(scene.ends[k].flow);
-        data.lists["pressure_" + scene.ends[k].name].push_back(scene.ends[k].mean_pressure + scene.reference_pressure);
+        data.lists["pressure_" + scene.ends[k].name].push_back(scene.ends[k].mean_pressure + scene.level());
     }
 }
 
