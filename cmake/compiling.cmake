@@ -21,10 +21,10 @@ function(patency_compile target folder)
 endfunction()
 
 # What takes longest in folders that arrange is to read and instantiate the same libraries anew in every file: several are read
-# at once. Not in other builds, which therefore see what a file forgets to include.
-set(PATENCY_TOGETHER io stages report verify app)
+# at once. Not in the debug preset, which therefore sees what a file forgets to include.
+option(PATENCY_TOGETHER "Compile several files of a folder at once where that is quicker" ON)
 function(patency_compile_together target folder)
-  if(CMAKE_BUILD_TYPE STREQUAL Release AND folder IN_LIST PATENCY_TOGETHER)
+  if(PATENCY_TOGETHER AND folder MATCHES "^(io|stages|report|verify|app)$")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()

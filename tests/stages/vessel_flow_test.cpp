@@ -142,22 +142,26 @@ std::vector<FlowMark> marks_of(const std::vector<double>& flows, const std::vect
 
 TEST(FlowWindow, TellsADriftFromATremble) {
     const std::vector<double> constant(8, 100);
-    EXPECT_EQ(change_of_windows(marks_of(constant, constant), 4, 0.5).change, 0);
-    EXPECT_LE(change_of_windows(marks_of(constant, constant), 4, 0.5).excess, 0);
+    EXPECT_EQ(change_of_windows(marks_of(constant, constant), 4, 0.5, 0).change, 0);
+    EXPECT_LE(change_of_windows(marks_of(constant, constant), 4, 0.5, 0).excess, 0);
     // A step of 1 %: more than may be, and certain.
-    const WindowChange step = change_of_windows(marks_of({100, 100, 100, 100, 101, 101, 101, 101}, constant), 4, 0.5);
+    const WindowChange step = change_of_windows(marks_of({100, 100, 100, 100, 101, 101, 101, 101}, constant), 4, 0.5, 0);
     EXPECT_NEAR(step.change, 100.0 / 101, 1e-9);
     EXPECT_GT(step.excess, 0.4);
     // A steady drift of 1 % per window is certain too, though its parts differ.
-    EXPECT_GT(change_of_windows(marks_of({100, 100.25, 100.5, 100.75, 101, 101.25, 101.5, 101.75}, constant), 4, 0.5).excess, 0);
+    EXPECT_GT(change_of_windows(marks_of({100, 100.25, 100.5, 100.75, 101, 101.25, 101.5, 101.75}, constant), 4, 0.5, 0).excess, 0);
     // The same 1 % between parts that scatter by 2 % is none.
-    EXPECT_LE(change_of_windows(marks_of({98, 102, 98.5, 101.5, 99, 103, 98, 104}, constant), 4, 0.5).excess, 0);
+    EXPECT_LE(change_of_windows(marks_of({98, 102, 98.5, 101.5, 99, 103, 98, 104}, constant), 4, 0.5, 0).excess, 0);
     // But not all can be put down to scatter.
-    EXPECT_GT(change_of_windows(marks_of({80, 120, 85, 115, 90, 130, 80, 140}, constant), 4, 0.5).excess, 0);
+    EXPECT_GT(change_of_windows(marks_of({80, 120, 85, 115, 90, 130, 80, 140}, constant), 4, 0.5, 0).excess, 0);
     // Of a period there are no parts.
-    EXPECT_GT(change_of_windows(marks_of({100, 101}, {100, 100}), 1, 0.5).excess, 0);
-    // Pressures count as well.
-    EXPECT_GT(change_of_windows(marks_of(constant, {100, 100, 100, 100, 102, 102, 102, 102}), 4, 0.5).excess, 0);
+    EXPECT_GT(change_of_windows(marks_of({100, 101}, {100, 100}), 1, 0.5, 0).excess, 0);
+    // Pressures count as well, above the datum.
+    EXPECT_GT(change_of_windows(marks_of(constant, {100, 100, 100, 100, 102, 102, 102, 102}), 4, 0.5, 0).excess, 0);
+    std::vector<FlowMark> low = marks_of(constant, {100, 100, 100, 100, 102, 102, 102, 102}), high = low;
+    for (FlowMark& mark : high)
+        for (double& integral : mark.pressure_time) integral += 900 * mark.time;
+    EXPECT_NEAR(change_of_windows(high, 4, 0.5, 900).change, change_of_windows(low, 4, 0.5, 0).change, 1e-12);
 }
 
 TEST(FlowWindow, EndsARunThatHasSettled) {

@@ -48,7 +48,7 @@ Uncertain mean_of(const std::vector<double>& values) {
 
 }   // namespace
 
-WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, double tolerance) {
+WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, double tolerance, double datum) {
     const std::size_t openings = marks.front().volume_out.size(), count = std::size_t(parts);
     const auto part = [&](std::size_t p, std::size_t k) { return mean_between(marks[p], marks[p + 1], k, 1); };
     WindowChange result{0, -INFINITY};
@@ -71,7 +71,7 @@ WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, do
         add(inflow, [&](std::size_t p) { return part(p, k).flow; });
         add(high - low, [&](std::size_t p) { return part(p, k).pressure - part(p, 0).pressure; });
     }
-    add(std::abs(mean_between(marks[count], marks[2 * count], 0, 1).pressure), [&](std::size_t p) { return part(p, 0).pressure; });
+    add(std::abs(mean_between(marks[count], marks[2 * count], 0, 1).pressure - datum), [&](std::size_t p) { return part(p, 0).pressure; });
     return result;
 }
 
@@ -104,7 +104,7 @@ void FlowWindow::observe(const Scene& scene) {
 
 void FlowWindow::compare_windows(const Scene& scene) {
     const int parts = parts_of(scene);
-    const WindowChange change = change_of_windows(state_.marks, parts, scene.config.numerics.convergence->tolerance_percent);
+    const WindowChange change = change_of_windows(state_.marks, parts, scene.config.numerics.convergence->tolerance_percent, scene.datum);
     state_.change_percent = change.change;
     state_.quiet_windows = change.excess <= 0 ? state_.quiet_windows + 1 : 0;
     state_.is_settled = state_.quiet_windows >= quiet_in_a_row;
