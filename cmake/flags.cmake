@@ -29,3 +29,7 @@ if(PATENCY_SANITIZE)
   target_compile_options(patency_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(patency_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(PATENCY_FUZZ)   # all that it is to see
+  target_compile_options(patency_flags INTERFACE -fsanitize=fuzzer-no-link,address -fno-omit-frame-pointer)
+  target_link_options(patency_flags INTERFACE -fsanitize=address)
+endif()

@@ -270,6 +270,13 @@ TEST_F(SurfaceFile, IndicesOutOfRangeAreRefused) {
         EXPECT_TRUE(has(refused<FileError>("a.vtk", replaced(vtk_text, "POINTS 4 ", bad)), "POINTS"));
 }
 
+TEST_F(SurfaceFile, CountsOfNothingTakeNeitherTimeNorMemory) {
+    for (const char* element : {"vertex", "face", "thing"})
+        refused<GeometryError>("a.ply", fmt::format("ply\nformat ascii 1.0\nelement {} 1e300\nend_header\n", element));
+    put(folder_ / "b.ply", replaced(ply_text, "element vertex", "element thing 1e300\nelement vertex"));
+    EXPECT_EQ(read_surface(folder_ / "b.ply", "mm").triangles.size(), 4u);
+}
+
 TEST_F(SurfaceFile, NoTrianglesAreAQuestionOfGeometry) {
     refused<GeometryError>("a.stl", "solid nothing\nendsolid nothing\n");
     refused<GeometryError>("b.stl", stl_binary("x", 0).substr(0, 84));

@@ -288,6 +288,17 @@ TEST(Network, openingCutsTheTubeThatItCrosses) {
     EXPECT_TRUE(has(refusal([&] { open_at(network, "x", {0, 3 * mm, 2 * mm}, {0, 1, 0}); }), "across its plane"));
 }
 
+TEST(Network, aPointOrARadiusFarTooLargeIsRefusedAtOnce) {
+    // Minutes of looking for a wall of square metres in cells of a tenth of a millimetre, without the estimate of it.
+    Network wide = make_t(), far = make_t();
+    wide.tubes[1].radii.front() = 22;
+    far.tubes[1].points.back() += 900 * normalized(far.tubes[1].points.back() - far.tubes[1].points.front());
+    for (const Network& network : {wide, far}) {
+        EXPECT_TRUE(has(refusal([&] { make_network_surface(network, mm); }), "points or radii wrong"));
+        EXPECT_TRUE(has(refusal([&] { make_network_lumen(network, 0, mm); }), "points or radii wrong"));
+    }
+}
+
 TEST(Network, refusesWhatCannotBe) {
     const auto refused = [](auto change) {
         Network network = make_t();

@@ -187,6 +187,16 @@ TEST(SurfaceCheck, EndsThatAreNotFlatOrNotRoundAreRefused) {
     expect_finding(check_surface(make_tube_mesh({.flat_share = 0.1})), "holes", Verdict::refused, 2);
 }
 
+TEST(SurfaceCheck, ALoopThatCrossesItselfHasItsCentreAmongItsPoints) {
+    // Two triangles at the origin, one run through the other way round, each 1 mm wide but for a billionth: their areas
+    // cancel to nearly nothing, and the centroid of that is a thousand kilometres away.
+    const double a = 1e-3, b = 1e-3 * (1 + 1e-9);
+    const Surface surface{.points = {{0, 0, 0}, {a, -a, 0}, {a, a, 0}, {-b, -b, 0}, {-b, b, 0}}};
+    const FlatLoop loop = measured_loop(surface, {0, 1, 2, 0, 3, 4});
+    EXPECT_LE(norm(loop.centre), 2 * b);
+    EXPECT_LE(loop.reach, 4 * b);
+}
+
 TEST(SurfaceCheck, PartsThatPassThroughEachOtherAreRefused) {
     // A tube that is bent so far that its end runs through its beginning.
     Surface tube = make_tube_mesh({.length = 30e-3, .along = 200});

@@ -43,8 +43,9 @@ public:
         read_header();
         rest_ = lines_.rest();
         for (const Element& element : elements_) {
+            if (element.properties.empty()) continue;   // its items are nothing, however many it says they are
             // Every item takes a byte at least, so a count beyond the rest of the file is a lie that would cost memory.
-            if (element.count > double(rest_.size()) && !element.properties.empty()) refuse_end(element);
+            if (element.count > double(rest_.size())) refuse_end(element);
             for (double k = 0; k < element.count; ++k) read_item(element);
         }
         return std::move(surface_);

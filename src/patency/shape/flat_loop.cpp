@@ -31,7 +31,10 @@ FlatLoop measured_loop(const Surface& surface, std::vector<std::uint32_t> rim) {
             const Vec3 a = point(k) - mean, b = point(k + 1) - mean;
             moment += 0.5 * dot(cross(a, b), loop.normal) * ((a + b) / 3.0);
         }
-        loop.centre += moment / loop.area;
+        // A loop that crosses itself has areas that cancel: the centroid of what is left is anywhere, perhaps far from the points.
+        double farthest = 0;
+        for (std::size_t k = 0; k < n; ++k) farthest = std::max(farthest, norm(point(k) - mean));
+        if (const Vec3 shift = moment / loop.area; norm(shift) <= farthest) loop.centre += shift;
     }
     for (std::size_t k = 0; k < n; ++k) {
         loop.reach = std::max(loop.reach, norm(point(k) - loop.centre));

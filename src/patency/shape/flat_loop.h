@@ -14,7 +14,7 @@ namespace patency {
 /// A closed line of points, as a flat face within it would be measured.
 struct FlatLoop {
     std::vector<std::uint32_t> rim{};   ///< indices of the surface's points; the last is followed by the first
-    Vec3 centre{};                      ///< centroid of the area [m]
+    Vec3 centre{};                      ///< centroid of the area, or mean of the points where that has none among them [m]
     Vec3 normal{};                      ///< unit; of the face that would close the surface: outward
     double area = 0;                    ///< [m^2]
     double perimeter = 0;               ///< [m]
