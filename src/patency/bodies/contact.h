@@ -71,7 +71,7 @@ public:
     ContactReport report() const override;
     std::vector<Push> pushes() const override;
     std::vector<double> state() const override;
-    void restore(std::span<const double> numbers) override;
+    void restore(std::span<const double> state) override;
 
 private:
     struct Touch {

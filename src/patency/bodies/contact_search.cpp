@@ -38,23 +38,20 @@ struct Box {
     }
 };
 
-double longest_side(const SolidSurface& s) {
-    double largest = 0;
-    for (const auto& [a, b, c] : s.mesh().elements) {
-        const auto& x = s.mesh().vertices;
-        largest = std::max({largest, norm(x[a] - x[b]), norm(x[b] - x[c]), norm(x[c] - x[a])});
-    }
-    return largest;
-}
-
 }   // namespace
 
-ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& elements)
-    : vertices_(vertices),
-      elements_(elements),
-      size_(longest_side(elements)),
-      reach_(reach_in_elements * size_),
-      margin_(margin_in_elements * size_) {
+ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& elements) : vertices_(vertices), elements_(elements) {
+    const auto side = [](const SolidSurface& s) {
+        double largest = 0;
+        for (const auto& [a, b, c] : s.mesh().elements) {
+            const auto& x = s.mesh().vertices;
+            largest = std::max({largest, norm(x[a] - x[b]), norm(x[b] - x[c]), norm(x[c] - x[a])});
+        }
+        return largest;
+    };
+    size_ = side(elements);
+    reach_ = reach_in_elements * size_;
+    margin_ = margin_in_elements * size_;
     if (&vertices_ == &elements_) exclude_near();
     find_facing();
     find();

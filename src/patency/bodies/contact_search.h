@@ -34,7 +34,7 @@ private:
     void find_facing();
 
     const SolidSurface &vertices_, &elements_;
-    double size_, reach_, margin_, moved_ = 0;   // size: of the largest element; [m]
+    double size_ = 0, reach_ = 0, margin_ = 0, moved_ = 0;   // size: of the largest element; [m]
     std::vector<Vec3> vertices_then_, elements_then_;
     Ragged<Candidate> candidates_;
     Ragged<std::uint32_t> excluded_;

@@ -73,7 +73,6 @@ const Node* Node::find(std::string_view key) const {
     return nullptr;
 }
 
-// NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): what is found in a node that may change may change
 Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
 
 Node make_scalar(std::string text, bool in_quotes) {

@@ -225,7 +225,6 @@ std::optional<Node> write_value(const M& member, const Row& row, const Scope& sc
     } else if constexpr (Is<M>::list) {
         if (member.empty()) return {};
         std::vector<Node> items;
-        items.reserve(member.size());
         for (const auto& item : member) items.push_back(*write_value(item, row, scope));
         return make_list(std::move(items));
     } else if constexpr (Is<M>::map) {

@@ -54,8 +54,8 @@ CellBalance::CellBalance(const CellMesh& mesh, const CellFluid& fluid, std::span
     : mesh_(mesh),
       fluid_(fluid),
       speed_(reference_speed),
-      level_(level_of_ends(ends)),
       is_newtonian_(std::holds_alternative<Newtonian>(fluid.rheology)) {
+    level_ = level_of_ends(ends);
     const std::size_t cells = mesh.size();
     for (const double volume : mesh.volume) width_.push_back(std::cbrt(volume));
     state_.resize(cells), grad_p_.resize(cells), grad_u_.resize(cells), lack_.resize(cells);

@@ -147,7 +147,7 @@ private:
     // Inside, velocities are over the reference speed U, pressures over density U^2, viscosities over U.
     const CellMesh& mesh_;
     CellFluid fluid_;
-    double speed_, level_;   // level: subtracted from all pressures [Pa]
+    double speed_, level_ = 0;   // level: subtracted from all pressures [Pa]
     bool is_newtonian_;
     cell_terms::Transport transport_ = cell_terms::sharp;
     CellGradients for_pressure_, for_velocity_;

@@ -60,8 +60,8 @@ public:
     std::size_t level_count() const { return levels_.size(); }
 
 private:
-    void cycle(std::size_t n);         // from level n
-    void solve_coarse(std::size_t n);
+    void cycle(std::size_t level);
+    void solve_coarse(std::size_t level);
     std::vector<CellLevel> levels_;
 };
 
