@@ -109,7 +109,8 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
     std::map<int, std::vector<std::size_t>> octaves;
     for (std::size_t k = 0; k < places.size(); ++k) octaves[std::ilogb(own[k] / own[0])].push_back(k);
     const std::span<const Vec3> wall_points = wall ? std::span<const Vec3>(wall->points) : std::span<const Vec3>();
-    for (const auto& [octave, members] : octaves) {
+    for (const auto& octave : octaves) {
+        const std::vector<std::size_t>& members = octave.second;
         std::vector<Vec3> here;
         double widest = 0;
         for (const std::size_t k : members) here.push_back(places[k]), widest = std::max(widest, own[k]);

@@ -91,8 +91,8 @@ PATENCY_INLINE Pack<float, W> load_difference(const std::int32_t* a, std::int32_
 /// a time: rows and out have room up to the next multiple of four.
 inline void store_side_by_side(std::span<const std::vector<std::uint32_t>> rows, std::size_t count, std::uint32_t* out) {
     typedef std::uint32_t Four __attribute__((vector_size(16)));
-    const auto low = [](Four a, Four b) { return __builtin_shuffle(a, b, Four{0, 4, 1, 5}); };
-    const auto high = [](Four a, Four b) { return __builtin_shuffle(a, b, Four{2, 6, 3, 7}); };
+    const auto low = [](Four a, Four b) { return __builtin_shufflevector(a, b, 0, 4, 1, 5); };
+    const auto high = [](Four a, Four b) { return __builtin_shufflevector(a, b, 2, 6, 3, 7); };
     const auto load = [](const std::uint32_t* from) { Four v; std::memcpy(&v, from, sizeof v); return v; };
     const auto store = [](std::uint32_t* to, Four v) { std::memcpy(to, &v, sizeof v); };
     const std::size_t lanes = rows.size();

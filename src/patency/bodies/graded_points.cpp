@@ -75,7 +75,8 @@ std::vector<Vec3> first_points(const Lumen& lumen, const SpacingField& field) {
     std::vector<std::vector<Share>> found(nx * ny * nz);
     const Division division(lumen, field);
     for_each_task(found.size(), [&](std::size_t n) {
-        const Vec3 at{double(n / (ny * nz)) + 0.5, double(n / nz % ny) + 0.5, double(n % nz) + 0.5};
+        const std::size_t i = n / (ny * nz), j = n / nz % ny, k = n % nz;
+        const Vec3 at{double(i) + 0.5, double(j) + 0.5, double(k) + 0.5};
         division.add(lumen.bounds.low + side * at, side, found[n]);
     });
     // Two, four and eight points of a cube are as far from each other as they can be, also from those of its like.

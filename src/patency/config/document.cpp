@@ -13,7 +13,7 @@ namespace patency::deck {
 namespace {
 
 std::string shown(const Place& place) {
-    const std::string source = place.source ? *place.source : "deck";
+    std::string source = place.source ? *place.source : "deck";
     if (place.line == 0) return source;
     return source + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
@@ -24,7 +24,7 @@ bool is_safe_plain(std::string_view text) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     };
     if (text.empty() || text.back() == ' ' || text.starts_with("---") || text.starts_with("...")) return false;
-    if (!is_word(text[0]) && (text.size() < 2 || !is_word(text[1]) || std::string_view("+-._/").find(text[0]) == text.npos))
+    if (!is_word(text[0]) && (text.size() < 2 || !is_word(text[1]) || std::string_view("+-._/").find(text[0]) == std::string_view::npos))
         return false;
     return std::all_of(text.begin(), text.end(),
                        [&](char c) { return is_word(c) || std::string_view("+-._/ ^").find(c) != std::string_view::npos; });

@@ -147,7 +147,7 @@ struct CheckpointReader::File {
 CheckpointReader::CheckpointReader(const std::filesystem::path& path) : path_(path) {
     const std::string bytes = read_file(path);
     const std::string_view content = expect_checkpoint(bytes, path);
-    file_ = std::make_unique<File>(hdf5::open_image(content));
+    file_ = std::make_unique<File>(File{hdf5::open_image(content)});
     std::string text(hdf5::form_of(file_->image, origin_name).size(), '\0');
     hdf5::read_dataset(file_->image, origin_name, std::as_writable_bytes(std::span(text)));
     origin_ = origin_from(text);

@@ -95,7 +95,7 @@ std::string kept_lines(const std::filesystem::path& path, const std::vector<std:
 
 }   // namespace
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns)
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
     : CsvWriter(path, columns, header_line(columns)) {}
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns, std::string_view beginning)

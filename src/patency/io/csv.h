@@ -19,7 +19,7 @@ class CsvWriter {
 public:
     /// A new file with its header; columns carry their unit: {"time_s", "flow_inlet_m3_per_s"}.
     /// Throws FileError.
-    CsvWriter(const std::filesystem::path& path, std::vector<std::string> columns);
+    CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
     /// Go on with the table of an interrupted run: keeps the rows whose first column is at most
     /// last_time and drops the rest, also a row that was cut off. A missing file begins anew; one with

@@ -35,7 +35,7 @@ void write_summary(const std::filesystem::path& path, const Json& document) {
 }
 
 Json read_summary(const std::filesystem::path& path) {
-    const Json document = Json::parse(read_file(path), nullptr, false);
+    Json document = Json::parse(read_file(path), nullptr, false);
     if (document.is_discarded())
         throw FileError(fmt::format("cannot read '{}': it is not a JSON document.", path.string()));
     return document;

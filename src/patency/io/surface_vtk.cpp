@@ -95,8 +95,8 @@ std::vector<std::vector<std::uint32_t>> cells_of(const SurfaceBytes& file, vtkCe
         auto& cell = result.emplace_back();
         for (std::int64_t c = offsets[k]; c < offsets[k + 1]; ++c) {
             const std::int64_t point = corners[std::size_t(c)];
-            cell.push_back(point >= 0 && point < std::int64_t(~0u) ? std::uint32_t(point)
-                                                                   : ~0u);   // the check of indices refuses it
+            cell.push_back(point >= 0 && point < std::int64_t(UINT32_MAX) ? std::uint32_t(point)
+                                                                         : UINT32_MAX);   // the check of indices refuses it
         }
     }
     return result;
@@ -181,8 +181,8 @@ PolyData polydata_of(const SurfaceBytes& file, vtkPolyData& data) {
     for (int k = 0; k < data.GetPointData()->GetNumberOfArrays(); ++k) {
         vtkDataArray* array = data.GetPointData()->GetArray(k);
         if (!array || !array->GetName() || array->GetNumberOfTuples() != data.GetNumberOfPoints()) continue;
-        PointArray& copy = result.arrays.emplace_back(array->GetName(), text_of(data, std::string(array->GetName()) + "_unit"),
-                                                      array->GetNumberOfComponents());
+        PointArray& copy = result.arrays.emplace_back(PointArray{array->GetName(), text_of(data, std::string(array->GetName()) + "_unit"),
+                                                                 array->GetNumberOfComponents(), {}});
         copy.values.reserve(std::size_t(array->GetNumberOfValues()));
         for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
             for (int c = 0; c < copy.components; ++c) copy.values.push_back(array->GetComponent(i, c));

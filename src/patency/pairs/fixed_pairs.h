@@ -102,8 +102,9 @@ template <class Position>
 FixedRows joined(const FixedRows& rows, const Position& x, double near) {
     const auto are_near = [&](std::uint32_t a, std::uint32_t b) { return norm(x[a] - x[b]) <= near; };
     FixedRows result(rows.size());
+    const auto count = std::uint32_t(rows.size());
 #pragma omp parallel for schedule(dynamic, 512)
-    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
         std::vector<std::uint32_t> between;
         for (const std::uint32_t k : rows[i])
             if (are_near(i, k)) between.push_back(k);

@@ -69,7 +69,9 @@ public:
     auto begin() const { return values_.begin(); }
     auto end() const { return values_.end(); }
 
-    int components() const override { return is_integer() ? 1 : int(sizeof(T) / sizeof(double)); }
+    int components() const override {
+        return is_integer() ? 1 : int(sizeof(T) / sizeof(double));   // NOLINT(bugprone-sizeof-expression): T is numbers side by side
+    }
     bool is_integer() const override { return std::is_same_v<T, std::int32_t>; }
     std::span<const std::byte> bytes() const override { return std::as_bytes(std::span(values_)); }
     std::span<std::byte> bytes() override { return std::as_writable_bytes(std::span(values_)); }

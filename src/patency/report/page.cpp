@@ -50,7 +50,7 @@ std::string make_page(const RunResults& results, std::string_view version) {
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder, std::string_view version) {
-    const std::filesystem::path path = folder / "report.html";
+    std::filesystem::path path = folder / "report.html";
     write_file(path, make_page(read_results(folder), version));
     return path;
 }

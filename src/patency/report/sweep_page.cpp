@@ -68,7 +68,7 @@ std::vector<PullbackCurve> curves_of(const Sweep& sweep, const SweepQuantity& qu
         for (std::size_t k = 0; k < sweep.keys.size(); ++k)
             if (across.key && k != *across.key) others.push_back(sweep.keys[k] + " " + sweep.rows[r].values[k]);
         const std::string label = join(others, ", ");
-        if (!points.count(label)) labels.push_back(label);
+        if (!points.contains(label)) labels.push_back(label);
         auto& here = points[label];
         if (const auto value = value_of(sweep.rows[r], quantity)) here.emplace_back(across.x[r], *value);
     }

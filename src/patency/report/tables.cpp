@@ -41,9 +41,10 @@ std::string split_table(const RunResults& results) {
     if (!first_part(results).contains("openings")) return {};
     for (const auto& [name, opening] : first_part(results)["openings"].items()) {
         const std::string at = "/openings" + step(name);
+        const double share = name == "inlet" ? 100.0 : -100.0;   // percent, out is positive
         rows += table_row(cells_of(results, {escaped(name)},
                                    {[&](const std::string& path) { return f.number(path + at + "/flow_m3_per_s", flow); },
-                                    [&](const std::string& path) { return f.ratio(path + at + "/flow_m3_per_s", path + "/openings/inlet/flow_m3_per_s", {"%", name == "inlet" ? 100.0 : -100.0, 1}); },
+                                    [&](const std::string& path) { return f.ratio(path + at + "/flow_m3_per_s", path + "/openings/inlet/flow_m3_per_s", {"%", share, 1}); },
                                     [&](const std::string& path) { return f.number(path + at + "/mean_pressure_pa", as_mmHg); },
                                     [&](const std::string& path) { return f.number(path + at + "/mean_velocity_m_per_s", as_m_per_s); }}));
     }

@@ -243,7 +243,7 @@ CellSolution solve_steady(CellBalance& balance, CellMatrix& matrix, const CellSo
         append(damped, spent);
         return damped;
     };
-    const CellSolution damped = solve_damped(std::max(settings.tolerance, sharp_from));
+    CellSolution damped = solve_damped(std::max(settings.tolerance, sharp_from));
     if (!damped.is_converged) return damped;
     spent = damped;
     if (solve_sharply(balance, matrix, settings, spent)) return spent;

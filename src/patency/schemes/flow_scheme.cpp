@@ -141,7 +141,7 @@ private:
     void compute_viscosity(double speed) {
         const auto &geometry = arrangement_.geometry(), &wall_geometry = arrangement_.wall_geometry();
         const auto &diagonal = arrangement_.laplacian_diagonal(), &mixed = arrangement_.laplacian_mixed();
-        const auto& [row_x, row_y, row_z] = gradient_;
+        const auto &row_x = gradient_[0], &row_y = gradient_[1], &row_z = gradient_[2];
         wall_viscosity_.resize(arrangement_.wall_count());
         arrangement_.sum_over_wall(records_of(geometry, diagonal, mixed), records_of(wall_geometry),
                                    terms::WallViscosity{}, [&](std::uint32_t i, const std::array<T, 5>& sum) {

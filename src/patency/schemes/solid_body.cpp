@@ -150,7 +150,8 @@ void SolidBody::take_means(double dt) {
         const double mass = sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(way(i), way(i)); });
         m.frequency = mass > 0 && stiffness > 0 ? std::sqrt(stiffness / mass) : 0.0;
         const double wanted = m.frequency > 0 ? turn_in_mean / (m.frequency * dt) : m.steps;
-        m.steps_of_mean = int(std::clamp(wanted, std::max<double>(least_steps_of_mean, m.steps / 2), 2.0 * m.steps));
+        const int half = m.steps / 2;
+        m.steps_of_mean = int(std::clamp(wanted, std::max<double>(least_steps_of_mean, half), 2.0 * m.steps));
     }
     // A stiff body that was carried along fast may swing with little of that ride's energy, and yet with all of its own.
     if (2 * kinetic() < share_at_rest * m.most) m.elastic = elastic_energy() + hourglass_energy();

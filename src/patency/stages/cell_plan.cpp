@@ -42,7 +42,8 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
     const Vec3 size = lumen.bounds.high - lumen.bounds.low;
     double inside = 0, count = 0;
     for (int n = 0; n < side * side * side; ++n) {
-        const Vec3 share{(n / (side * side) + 0.5) / side, (n / side % side + 0.5) / side, (n % side + 0.5) / side};
+        const int i = n / (side * side), j = n / side % side, k = n % side;
+        const Vec3 share{(i + 0.5) / side, (j + 0.5) / side, (k + 0.5) / side};
         const Vec3 x = lumen.bounds.low + Vec3{share.x * size.x, share.y * size.y, share.z * size.z};
         if (contains(lumen, x)) inside += 1, count += std::pow(field(x), -3);
     }

@@ -101,7 +101,7 @@ void expect_same_openings(const deck::Case& config, const std::vector<SurfaceOpe
     }
     for (const auto& [name, said] : config.openings)
         if (std::none_of(openings.begin(), openings.end(),
-                         [&](const SurfaceOpening& o) { return o.opening.name == name; }))
+                         [&name = name](const SurfaceOpening& o) { return o.opening.name == name; }))
             throw DeckError(fmt::format("openings.{}: the surface has no such opening; it has {}", name, names));
 }
 

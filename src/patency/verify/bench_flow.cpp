@@ -195,17 +195,15 @@ std::vector<BenchResult> run_flow_bench(const BenchRequest& request) {
     for (const auto& [tail, precision] : {std::pair{"mixed", deck::Precision::mixed}, std::pair{"double", deck::Precision::double_}}) {
         const std::string end = std::string("_") + tail;
         // 7.5 diameters at D/16 are 24,000 particles; 8 at D/32 are 206,000; D/25 and D/54 make 100,000 and 1,000,000.
-        const Setup small{16, 7.5, precision}, large{32, 8, precision};
+        const Setup small{16, 7.5, precision}, large{32, 8, precision}, larger{25, 8, precision}, largest{54, 8, precision};
         benches.emplace_back("pipe_d16" + end, [=, &request](const std::string& name) { return bench_against_reference(name, small, request); });
         benches.emplace_back("pipe_d32" + end, [=, &request](const std::string& name) { return bench_against_reference(name, large, request); });
         benches.emplace_back("two_threads" + end, [=, &request](const std::string& name) { return bench_two_threads(name, large, request); });
-        benches.emplace_back("growth" + end, [=, &request](const std::string& name) {
-            return bench_growth(name, {54, 8, precision}, {25, 8, precision}, request);
-        });
+        benches.emplace_back("growth" + end, [=, &request](const std::string& name) { return bench_growth(name, largest, larger, request); });
     }
     std::vector<BenchResult> results;
     for (const auto& [name, bench] : benches) {
-        const bool is_wanted = request.names.empty() || std::any_of(request.names.begin(), request.names.end(), [&](const std::string& part) {
+        const bool is_wanted = request.names.empty() || std::any_of(request.names.begin(), request.names.end(), [&name = name](const std::string& part) {
                                    return name.find(part) != std::string::npos;
                                });
         if (!is_wanted) continue;

@@ -176,8 +176,8 @@ void corner_figures(const Results& results, FigureList& figures) {
 }   // namespace
 
 std::vector<VerifyCase> cell_shape_cases() {
-    const auto on_cells = [](std::string name, std::string title, auto is_full, auto measure, auto figures) {
-        return VerifyCase{.name = std::move(name), .title = std::move(title), .is_full = is_full, .measure = {}, .measure_cells = measure,
+    const auto on_cells = [](const char* name, const char* title, auto is_full, auto measure, auto figures) {
+        return VerifyCase{.name = name, .title = title, .is_full = is_full, .measure = {}, .measure_cells = measure,
                           .figures = figures, .pictures = {}};
     };
     return {on_cells("cells_poiseuille", "Steady flow on cells between plates, of relaxed and of disordered particles",

@@ -165,8 +165,8 @@ void incline_figures(const Results& results, FigureList& figures) {
 }   // namespace
 
 std::vector<VerifyCase> contact_cases() {
-    const auto contact = [](std::string name, std::string title, auto measure, auto figures) {
-        return VerifyCase{.name = std::move(name), .title = std::move(title), .is_full = {}, .measure = {}, .measure_solids = measure,
+    const auto contact = [](const char* name, const char* title, auto measure, auto figures) {
+        return VerifyCase{.name = name, .title = title, .is_full = {}, .measure = {}, .measure_solids = measure,
                           .figures = figures, .pictures = {}};
     };
     std::vector<VerifyCase> cases = {

@@ -236,8 +236,8 @@ void taylor_bar_figures(const Results& results, FigureList& figures) {
 }   // namespace
 
 std::vector<VerifyCase> solid_cases() {
-    const auto solid = [](std::string name, std::string title, auto measure, auto figures) {
-        return VerifyCase{.name = std::move(name), .title = std::move(title), .is_full = {}, .measure = {}, .measure_solids = measure,
+    const auto solid = [](const char* name, const char* title, auto measure, auto figures) {
+        return VerifyCase{.name = name, .title = title, .is_full = {}, .measure = {}, .measure_solids = measure,
                           .figures = figures, .pictures = {}};
     };
     std::vector<VerifyCase> cases = {

@@ -212,8 +212,8 @@ void stent_free_figures(const Results& results, FigureList& figures) {
 }   // namespace
 
 std::vector<VerifyCase> stent_cases() {
-    const auto stent = [](std::string name, std::string title, Level level, auto measure, auto figures) {
-        return VerifyCase{.name = std::move(name), .title = std::move(title), .level = level, .is_full = {}, .measure = {}, .measure_solids = measure,
+    const auto stent = [](const char* name, const char* title, Level level, auto measure, auto figures) {
+        return VerifyCase{.name = name, .title = title, .level = level, .is_full = {}, .measure = {}, .measure_solids = measure,
                           .figures = figures, .pictures = {}};
     };
     return {stent("plastic_ring", "A thin ring of metal that a balloon opens, and what springs back", Level::quick, measure_plastic_ring, plastic_ring_figures),

@@ -13,6 +13,8 @@ template <class... F>
 struct Overloaded : F... {
     using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;   // g++ does without, older clang does not
 
 // For x' = a x + g + g' s over a step h and z = a h:  x(h) = e^z x(0) + h phi_1(z) g + h^2 phi_2(z) g'
 // (exponential integrators; Hochbruck and Ostermann, Acta Numerica 19, 2010).
