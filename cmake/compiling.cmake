@@ -28,7 +28,7 @@ function(patency_compile_together target folder)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
-set(alone io/surface_picture verify/vessel_sections)   # whose own names are others' too
+set(alone io/surface_picture report/curve verify/vessel_sections)   # whose own names are others' too
 list(TRANSFORM alone REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/src/patency/\\1.cpp")
 set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 

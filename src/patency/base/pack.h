@@ -78,10 +78,13 @@ PATENCY_INLINE void fuse(__m256d& a, const __m256d& b, const __m256d& c) { a = _
 #if defined(__AVX512F__)
 PATENCY_INLINE void take_root(__m512& a) { a = _mm512_sqrt_ps(a); }
 PATENCY_INLINE void take_root(__m512d& a) { a = _mm512_sqrt_pd(a); }
-PATENCY_INLINE void take_larger(__m512& a, const __m512& b) { a = _mm512_max_ps(a, b); }
-PATENCY_INLINE void take_larger(__m512d& a, const __m512d& b) { a = _mm512_max_pd(a, b); }
-PATENCY_INLINE void take_smaller(__m512& a, const __m512& b) { a = _mm512_min_ps(a, b); }
-PATENCY_INLINE void take_smaller(__m512d& a, const __m512d& b) { a = _mm512_min_pd(a, b); }
+// Of all lanes by their mask: what has none starts, in some compilers' headers, from a register that they then warn of.
+constexpr std::uint16_t every_float = 0xffff;
+constexpr std::uint8_t every_double = 0xff;
+PATENCY_INLINE void take_larger(__m512& a, const __m512& b) { a = _mm512_maskz_max_ps(every_float, a, b); }
+PATENCY_INLINE void take_larger(__m512d& a, const __m512d& b) { a = _mm512_maskz_max_pd(every_double, a, b); }
+PATENCY_INLINE void take_smaller(__m512& a, const __m512& b) { a = _mm512_maskz_min_ps(every_float, a, b); }
+PATENCY_INLINE void take_smaller(__m512d& a, const __m512d& b) { a = _mm512_maskz_min_pd(every_double, a, b); }
 PATENCY_INLINE void fuse(__m512& a, const __m512& b, const __m512& c) { a = _mm512_fmadd_ps(a, b, c); }
 PATENCY_INLINE void fuse(__m512d& a, const __m512d& b, const __m512d& c) { a = _mm512_fmadd_pd(a, b, c); }
 #endif
