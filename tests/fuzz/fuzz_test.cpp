@@ -30,7 +30,7 @@ TEST(Fuzz, damageIsTheSameForTheSameNumber) {
         EXPECT_EQ(Mutator(k)(sound, sound), Mutator(k)(sound, sound));
         changed += Mutator(k)(sound, sound) != sound;
     }
-    EXPECT_GT(changed, 190u);   // some blows hit nothing
+    EXPECT_GT(changed, 150u);   // a blow may hit nothing, or write what stood there
 }
 
 TEST(Fuzz, refusalsAreToldApart) {
