@@ -18,7 +18,7 @@ add_library(patency_flags INTERFACE)
 target_include_directories(patency_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
 target_compile_options(patency_flags INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
-  -Wno-maybe-uninitialized   # g++ 12 warns inside its own AVX-512 headers
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>   # g++ 12 warns inside its own AVX-512 headers
   -ffp-contract=off -fno-math-errno -fno-trapping-math ${PATENCY_ARCH})
 if(PATENCY_ISA MATCHES "native|avx512")
   target_compile_options(patency_flags INTERFACE -mprefer-vector-width=512)

@@ -299,6 +299,12 @@ TEST(Network, aPointOrARadiusFarTooLargeIsRefusedAtOnce) {
     }
 }
 
+TEST(Network, aRadiusFarTooSmallIsRefusedBeforeStepsOfItsLength) {
+    Network network = make_t();
+    network.tubes[0].radii.front() = 1e-160;   // its continuation was looked along in steps of a quarter of that
+    EXPECT_TRUE(has(refusal([&] { expect_sound(network); }), "narrower than any vessel"));
+}
+
 TEST(Network, refusesWhatCannotBe) {
     const auto refused = [](auto change) {
         Network network = make_t();
