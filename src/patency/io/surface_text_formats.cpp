@@ -42,7 +42,7 @@ Surface parse_stl_binary(const SurfaceBytes& file) {
         float numbers[9];
         std::memcpy(numbers, bytes.data() + start + k * stl_record + 3 * sizeof(float), sizeof numbers);
         const auto first = std::uint32_t(surface.points.size());
-        for (int corner = 0; corner < 3; ++corner)
+        for (std::size_t corner = 0; corner < 3; ++corner)
             surface.points.push_back({numbers[3 * corner], numbers[3 * corner + 1], numbers[3 * corner + 2]});
         surface.triangles.push_back({first, first + 1, first + 2});
     }

@@ -102,7 +102,7 @@ public:
             for (std::size_t x = 0; x < image.width; ++x) {
                 Vec3 sum{};
                 int hit = 0;
-                for (std::size_t k = 0; k < finer * finer; ++k) {
+                for (std::size_t k = 0; k < std::size_t(finer) * finer; ++k) {
                     const std::size_t at = (y * finer + k / finer) * width_ + x * finer + k % finer;
                     if (depth_[at] == -INFINITY) continue;
                     sum += colour_[at], ++hit;

@@ -100,7 +100,7 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
     const auto at = [&](double arc) { return section_at(sections, stenosed, arc); };
     const auto drop = [&](const RunData& data) { return data.list("pressure")[at(proximal_arc)] - data.list("pressure")[at(distal_arc)]; };
     for (const auto& [run, suffix, judged] : {std::tuple{"d20", "", true}, {"d30", "_d30", false}, {"d40", "_d40", false}}) {
-        const auto bar = [&, judged = judged](double value) { return judged ? std::optional<Bar>(value) : std::nullopt; };
+        const auto bar = [&, judged = judged](double value) { return judged ? std::optional(Bar{value}) : std::nullopt; };
         const auto add = [&, run = run, suffix = suffix](const std::string& key, const std::string& unit, std::optional<Bar> limit, const std::function<double(const RunData&)>& value) {
             figures.add({key + suffix, unit, limit}, {run}, [&, value] { return value(results[run]); });
         };

@@ -163,7 +163,7 @@ void hertz_figures(const Results& results, FigureList& figures) {
         for (const std::string& run : all) most = std::max(most, results[run].number(name));
         return most;
     };
-    figures.add({"sphere_curve_error_percent", "percent", Bar{4}}, sphere_runs, [=, &results] {
+    figures.add({"sphere_curve_error_percent", "percent", Bar{4}}, sphere_runs, [=] {
         double most = 0;
         for (const std::string& run : sphere_runs) most = std::max(most, error_percent(run, "force"));
         return most;
