@@ -33,7 +33,7 @@ vtkSmartPointer<vtkPolyData> to_vtk(std::span<const Vec3> points, std::span<cons
         const vtkIdType corners[3] = {vtkIdType(t[0]), vtkIdType(t[1]), vtkIdType(t[2])};
         cells->InsertNextCell(3, corners);
     }
-    const auto data = vtkSmartPointer<vtkPolyData>::New();
+    auto data = vtkSmartPointer<vtkPolyData>::New();
     data->SetPoints(places);
     data->SetPolys(cells);
     data->GetPointData()->AddArray(numbers);
