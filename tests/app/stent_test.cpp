@@ -12,6 +12,7 @@
 #include "patency/shape/stent_library.h"
 #include "tests/app/program.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 
 namespace patency {
 namespace {

@@ -24,13 +24,14 @@ TEST(Fuzz, seedsAreAccepted) {
 }
 
 TEST(Fuzz, damageIsTheSameForTheSameNumber) {
-    const std::string sound = "vertex 1 2 3\nvertex 4 5 6\n";
+    std::string sound;
+    for (int k = 0; k < 40; ++k) sound += "vertex " + std::to_string(k) + " 12.5 -0.75\n";
     std::size_t changed = 0;
     for (unsigned k = 0; k < 200; ++k) {
         EXPECT_EQ(Mutator(k)(sound, sound), Mutator(k)(sound, sound));
         changed += Mutator(k)(sound, sound) != sound;
     }
-    EXPECT_GT(changed, 150u);   // a blow may hit nothing, or write what stood there
+    EXPECT_GT(changed, 190u);   // a blow may hit nothing, or write what stood there
 }
 
 TEST(Fuzz, refusalsAreToldApart) {

@@ -17,6 +17,7 @@
 #include "patency/io/atomic_file.h"
 #include "patency/io/checkpoint_block.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 
 namespace patency {
 namespace {

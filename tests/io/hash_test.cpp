@@ -6,6 +6,7 @@
 #include "patency/base/errors.h"
 #include "patency/io/atomic_file.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 
 namespace patency {
 namespace {

@@ -14,6 +14,7 @@
 #include "patency/base/errors.h"
 #include "patency/io/surface_file.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 
 namespace patency {
 namespace {

@@ -15,6 +15,7 @@
 #include "patency/shape/network_lumen.h"
 #include "patency/shape/surface_cut.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 
 namespace patency {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "patency/base/errors.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 
 namespace patency {
 namespace {

@@ -2,26 +2,33 @@
 // A folder of its own for each test, removed with what is in it, and a limit that plays the full disk.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace patency {
 
 class ScratchFolder {
 public:
-    ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "patency_io_XXXXXX").string();
+    explicit ScratchFolder(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+        std::string name = (parent / "patency_test_").string() + std::string(6, 'X');   // which the system makes a name of
         if (!::mkdtemp(name.data())) throw std::runtime_error("no scratch folder");
         path_ = name;
     }
-    ~ScratchFolder() { std::filesystem::remove_all(path_); }
+    ~ScratchFolder() {
+        std::error_code error;
+        std::filesystem::remove_all(path_, error);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
     std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
     bool is_empty() const { return std::filesystem::is_empty(path_); }
@@ -55,23 +62,6 @@ inline std::string contents_of(const std::filesystem::path& path) {
 
 inline void put(const std::filesystem::path& path, std::string_view contents) {
     std::ofstream(path, std::ios::binary) << contents;
-}
-
-/// The sentence of the E that the action throws; a failure of the test if it throws none.
-template <class E, class Action>
-std::string sentence_of(Action&& action) {
-    try {
-        action();
-    } catch (const E& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "no error of the expected type";
-    return {};
-}
-
-inline ::testing::AssertionResult has(const std::string& text, const std::string& part) {
-    if (text.find(part) != text.npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "'" << part << "' is not in: " << text;
 }
 
 }   // namespace patency

@@ -10,6 +10,7 @@
 
 #include "patency/base/errors.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 #include "tests/shape/surfaces.h"
 
 namespace patency {

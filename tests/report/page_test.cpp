@@ -13,6 +13,7 @@
 #include "patency/report/page_data.h"
 #include "patency/report/page_parts.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 #include "tests/shape/surfaces.h"
 
 namespace patency {

@@ -20,6 +20,7 @@
 #include "patency/stages/stent_of_case.h"
 #include "patency/stages/stent_placement.h"
 #include "tests/io/scratch_folder.h"
+#include "tests/io/sentences.h"
 #include "tests/stages/vessels.h"
 
 namespace patency {

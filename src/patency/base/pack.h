@@ -141,10 +141,9 @@ struct Quads {
 namespace detail {
 
 #if defined(__AVX512F__)
-// Records come in through masked broadcasts from memory (load ports), not through inserts (the one shuffle port).
 PATENCY_INLINE Quads<Pack<float, 16>> load_quads(const Quad<float>* base, const std::uint32_t* index) {
     const auto at = [&](int k) { return _mm_load_ps(&base[index[k]].a); };
-    // Halves of a register first: where it is worked on in two goes, a quarter put into all of it costs as much as a half.
+    // Joined from halves: where a register is worked on in two goes, a quarter put into all of it costs twice one put into a half.
     const auto half = [&](int k) { return _mm256_castps_pd(_mm256_insertf128_ps(_mm256_castps128_ps256(at(k)), at(k + 4), 1)); };
     __m512 z[4];
     for (int k = 0; k < 4; ++k) z[k] = _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castpd256_pd512(half(k)), half(k + 8), 1));

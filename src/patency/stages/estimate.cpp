@@ -62,6 +62,20 @@ TreeEnd end_of(const Opening& opening, const deck::Opening& said, const deck::Ca
     return TreeResistance{impedance(*law.outlet, 0).real(), said.distal_pressure};
 }
 
+void expect_same_openings(const deck::Case& config, const std::vector<SurfaceOpening>& openings) {
+    std::string names;
+    for (const SurfaceOpening& o : openings) {
+        names += (names.empty() ? "" : ", ") + o.opening.name;
+        if (!config.openings.contains(o.opening.name))
+            throw DeckError(fmt::format("openings.{} is missing: the surface has an opening of {:.2f} mm there",
+                                        o.opening.name, 2e3 * o.opening.radius));
+    }
+    for (const auto& [name, said] : config.openings)
+        if (std::none_of(openings.begin(), openings.end(),
+                         [&name = name](const SurfaceOpening& o) { return o.opening.name == name; }))
+            throw DeckError(fmt::format("openings.{}: the surface has no such opening; it has {}", name, names));
+}
+
 std::size_t station_at(const TreeBranch& branch, double arc) {
     const auto at = std::lower_bound(branch.arc.begin(), branch.arc.end(), arc);
     return std::min(std::size_t(at - branch.arc.begin()), branch.arc.size() - 1);
@@ -90,20 +104,6 @@ EstimatedLesion read_lesion(const Estimate& e, const VesselAlong& along, std::si
 }
 
 }   // namespace
-
-void expect_same_openings(const deck::Case& config, const std::vector<SurfaceOpening>& openings) {
-    std::string names;
-    for (const SurfaceOpening& o : openings) {
-        names += (names.empty() ? "" : ", ") + o.opening.name;
-        if (!config.openings.contains(o.opening.name))
-            throw DeckError(fmt::format("openings.{} is missing: the surface has an opening of {:.2f} mm there",
-                                        o.opening.name, 2e3 * o.opening.radius));
-    }
-    for (const auto& [name, said] : config.openings)
-        if (std::none_of(openings.begin(), openings.end(),
-                         [&name = name](const SurfaceOpening& o) { return o.opening.name == name; }))
-            throw DeckError(fmt::format("openings.{}: the surface has no such opening; it has {}", name, names));
-}
 
 std::optional<double> Estimate::ffr(std::size_t branch, std::size_t station) const {
     if (!aortic_pressure) return std::nullopt;

@@ -42,9 +42,6 @@ struct Estimate {
     std::optional<double> ffr(std::size_t branch, std::size_t station) const;
 };
 
-/// Throws DeckError unless deck and vessel have the same openings.
-void expect_same_openings(const deck::Case& config, const std::vector<SurfaceOpening>& openings);
-
 /// Of a vessel that was followed. Steady: waveforms count by their means. Throws DeckError if openings of deck and vessel differ, or the ends leave the
 /// pressure open; GeometryError if no flow agrees.
 Estimate estimate_flow(const deck::Case& config, const Vessel& vessel, const EstimateChange& change = {});

@@ -55,8 +55,8 @@ private:
 };
 
 /// The change between two windows of `parts` each, whose ends are `marks` (2 parts + 1). Flows count by the inflow; pressures beside the
-/// first opening's by the range of the openings; that one's own, the level, by what it is above the datum [Pa]. Parts that scatter tell how uncertain a
-/// mean is; never is more than four times the tolerance [%] put down to that.                        THEORY.md section 15
+/// first opening's by the range of the openings; that one's own, the level, by what it is above the datum [Pa]. Parts that scatter tell
+/// how uncertain a mean is; never is more than four times the tolerance [%] put down to that.        THEORY.md section 15
 WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, double tolerance, double datum);
 
 }   // namespace patency

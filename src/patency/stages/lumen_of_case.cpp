@@ -103,8 +103,8 @@ Lumen make_network_of(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     const Network network = read_network_of(config);
     const double narrowest = narrowest_diameter(network), dp = finest_spacing(config.numerics, narrowest);
-    constexpr double least = 4;   // as for shapes (config/checks.cpp)
-    if (narrowest < least * dp)
+    constexpr double least_across = 4;   // as for shapes (config/checks.cpp)
+    if (narrowest < least_across * dp)
         throw DeckError(fmt::format("numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
                                     "a sensible answer",
                                     1e3 * narrowest));

@@ -14,11 +14,11 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <new>
 #include <thread>
 
 #include "tests/fuzz/mutator.h"
+#include "tests/io/scratch_folder.h"
 
 namespace patency {
 
@@ -41,11 +41,6 @@ double seconds_of(pid_t process) {
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-std::string contents_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// What the processes share. The workers write it, and what one that crashed wrote last says at which file.
 struct Shared {
     struct Worker {
@@ -65,22 +60,17 @@ Shared& make_shared_memory() {
     return *new (memory) Shared;
 }
 
-fs::path make_scratch() {   // in memory where the system has a folder for that
-    const fs::path parent = fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
-    std::string name = (parent / "patency_fuzz_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("no scratch folder");
-    return name;
+/// In memory where the system has a folder for that.
+fs::path fastest_folder() {
+    const fs::path in_memory = "/dev/shm";
+    return fs::exists(in_memory) ? in_memory : fs::temp_directory_path();
 }
 
 class Run {
 public:
     explicit Run(const Campaign& campaign)
-        : c_(campaign), shared_(make_shared_memory()), scratch_(make_scratch()), processes_(std::size_t(c_.at_once)) {}
-    ~Run() {
-        std::error_code error;
-        fs::remove_all(scratch_, error);
-        ::munmap(&shared_, sizeof(Shared));
-    }
+        : c_(campaign), shared_(make_shared_memory()), scratch_(fastest_folder()), processes_(std::size_t(c_.at_once)) {}
+    ~Run() { ::munmap(&shared_, sizeof(Shared)); }
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
@@ -107,11 +97,11 @@ public:
 
 private:
     fs::path place_of(int w, unsigned number) const {
-        return scratch_ / std::to_string(w) / c_.seeds[number % c_.seeds.size()].filename();
+        return scratch_.path() / std::to_string(w) / c_.seeds[number % c_.seeds.size()].filename();
     }
 
     void launch(int w) {
-        fs::create_directories(scratch_ / std::to_string(w));
+        fs::create_directories(scratch_.path() / std::to_string(w));
         std::fflush(stdout);
         const pid_t child = ::fork();
         if (child < 0) throw std::runtime_error("no process to be had");
@@ -197,7 +187,7 @@ private:
 
     const Campaign& c_;
     Shared& shared_;
-    const fs::path scratch_;
+    const ScratchFolder scratch_;
     std::vector<pid_t> processes_;   // 0 for one that has ended
     int running_ = 0;
 };
