@@ -28,6 +28,9 @@ constexpr int cycles_per_row = 2;
 // 2.6/h; both are held to about three quarters of the bound of an explicit step.                  THEORY.md (7.1)
 constexpr double viscous_number = 0.125;
 constexpr double upwind_number = 1.5;
+// Of the speed of sound: as fast counts blood at rest, for what trembles there is sound. At a quarter of this the pipe of
+// verify windkessel, whose sound is a hundred times as fast as its blood, blows up when its flow turns.   THEORY.md (4.9)
+constexpr double sound_noise = 0.01;
 
 Vec3 tangential(const Vec3& a, const Vec3& normal) { return a - dot(a, normal) * normal; }
 
@@ -55,7 +58,7 @@ public:
             arrangement_.compute_corrections();
             write_records();
             const FlowStep advection = choose_step(longest - report.dt);
-            compute_viscosity(are_gradients_known() ? std::max(advection.fastest, numerics_.reference_speed) : 0);
+            compute_viscosity();
 
             const double dt = advection.dt / advection.acoustic_steps;
             start_acoustic_steps(dt);
@@ -91,7 +94,7 @@ private:
         for_each_index(n, [&](std::size_t i) {
             velocity_[i] = vector_record(fluid.velocity[i], T(fluid.viscosity[i] / material_.viscosity));
             const Mat3 g = arrangement_.unit() * fluid.velocity_gradient[i];
-            gradient_[0][i] = vector_record(g.x, T(dissipating_share(i)));
+            gradient_[0][i] = vector_record(g.x, T(dissipating_root(i)));
             gradient_[1][i] = vector_record(g.y, T(sees_curvature(i)));
             gradient_[2][i] = vector_record(g.z, T(0));
             const Sym<T>& c = arrangement_.closure(i).correction;
@@ -105,12 +108,15 @@ private:
     /// Near a wall the mirror is of first order, and in a buffer the velocity is told.                   THEORY.md (3.8)
     bool sees_curvature(std::size_t i) const { return arrangement_.wall_of(i) == no_wall && domain_.fluid.opening[i] == 0; }
 
-    /// 0 for the layer at the wall, whose gradient is of first order, 1 from the next one on.            THEORY.md (4.9)
-    double dissipating_share(std::size_t i) const {
-        if (arrangement_.wall_of(i) == no_wall) return 1;
+    /// Of a pair the product counts: the speed of the upwind flux between the two [m/s]. None at the wall, where gradients are of
+    /// first order; all of it beyond the kernel's reach.                                              THEORY.md (4.9)
+    double dissipating_root(std::size_t i) const {
+        const double root = std::sqrt(std::max(norm(domain_.fluid.velocity[i]), quietest_speed()));
+        if (arrangement_.wall_of(i) == no_wall) return root;
         const double distance = double(arrangement_.geometry()[i].d) * arrangement_.unit() / numerics_.spacing;
-        return std::clamp(distance - 0.5, 0.0, 1.0);
+        return root * std::clamp(0.5 * (distance - 0.5), 0.0, 1.0);
     }
+    double quietest_speed() const { return sound_noise * material_.sound_speed; }
 
     FlowStep choose_step(double longest) const {
         const double h = kernel_.h;
@@ -119,7 +125,7 @@ private:
         FlowStep report;
         report.fastest = fastest;
         const double slow = material_.kinematic_viscosity() / (viscous_number * h * h) +
-                            upwind_number * numerics_.velocity_dissipation * speed / h;
+                            upwind_number * numerics_.velocity_dissipation * std::max(speed, quietest_speed()) / h;
         report.dt = std::min({numerics_.advection_cfl * h / speed, 1 / slow, longest});
         const double acoustic = numerics_.acoustic_cfl * h / (material_.sound_speed + speed);
         report.acoustic_steps = std::max(1, int(std::ceil(report.dt / acoustic)));
@@ -138,7 +144,8 @@ private:
 
     /// Velocity gradient, viscous acceleration, and the dissipation of what no gradient explains.
     ///                                                                                     THEORY.md (3.5), (4.9)
-    void compute_viscosity(double speed) {
+    void compute_viscosity() {
+        const double upwind = are_gradients_known() ? numerics_.velocity_dissipation : 0;
         const auto &geometry = arrangement_.geometry(), &wall_geometry = arrangement_.wall_geometry();
         const auto &diagonal = arrangement_.laplacian_diagonal(), &mixed = arrangement_.laplacian_mixed();
         const auto &row_x = gradient_[0], &row_y = gradient_[1], &row_z = gradient_[2];
@@ -154,14 +161,14 @@ private:
             arrangement_.sum_over_blood(
                 records_of(geometry, velocity_, row_x, row_y, row_z, diagonal, mixed, correction_[0], correction_[1]),
                 records_of(geometry, velocity_, row_x, row_y, row_z), term,
-                [&](std::uint32_t i, const auto& sum) { apply_viscosity(i, sum, speed); });
+                [&](std::uint32_t i, const auto& sum) { apply_viscosity(i, sum, upwind); });
         };
         if (material_.viscosity_at) sum_over_blood(terms::Viscosity<true>{});
         else sum_over_blood(terms::Viscosity<false>{});
     }
 
     template <std::size_t sums>
-    void apply_viscosity(std::uint32_t i, const std::array<T, sums>& sum, double speed) {
+    void apply_viscosity(std::uint32_t i, const std::array<T, sums>& sum, double upwind_share) {
         FluidParticles& fluid = domain_.fluid;
         const double unit = arrangement_.unit();
         const double mu = fluid.viscosity[i] / material_.viscosity;   // relative, as in the sums
@@ -210,7 +217,7 @@ private:
             const double s = arrangement_.geometry()[i].d, farther = 0.5 * s * s * double(wall_viscosity_[k][0]);
             viscous += (farther * nu * dot(thinning, normal)) * tangential(slope, normal);   // THEORY.md (5.3)
         }
-        const double upwind = numerics_.velocity_dissipation * speed * kernel_.slope() * numerics_.cell() * unit;
+        const double upwind = upwind_share * kernel_.slope() * numerics_.cell() * unit;
         if (fluid.opening[i] == 0) viscous -= upwind * Vec3{sum[16], sum[17], sum[18]};
         fluid.slow_acceleration[i] = viscous + numerics_.body_force;
         fluid.velocity_gradient[i] = gradient;

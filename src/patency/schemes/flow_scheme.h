@@ -28,7 +28,7 @@ struct FlowNumerics {
     double acoustic_cfl = 0.6;
     double reference_speed = 0;   ///< a speed that will be reached, so that the first steps are not too long [m/s]
     double pressure_dissipation = 0.3;   ///< as a share of the Riemann solver's                  THEORY.md (4.6)
-    double velocity_dissipation = 0.5;   ///< as a share of the upwind flux at the largest speed  THEORY.md (4.9)
+    double velocity_dissipation = 0.5;   ///< as a share of the upwind flux                      THEORY.md (4.9)
     double shift = 0.4;                  ///< to where there are fewer; from 0.5 on it overshoots      THEORY.md (6.2)
     bool free_slip = false;
     Vec3 body_force{};   ///< acceleration [m/s^2]
