@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -68,12 +69,12 @@ private:
     vtkLogger::Verbosity verbosity_;
 };
 
-/// The last line of what VTK said, without its own names and addresses.
+/// The first complaint of VTK, without its own names and addresses; those after it are consequences, and lists of VTK's state.
 std::string reason_of(const std::string& errors) {
-    std::string_view text = trimmed(errors);
-    text = trimmed(text.substr(text.find_last_of('\n') + 1));
-    const std::size_t address = text.rfind("): ");
-    return shortened(address == text.npos ? text : text.substr(address + 3), 120);
+    std::string_view text = errors;
+    if (const std::size_t address = text.find("): "); address != text.npos) text = text.substr(address + 3);
+    text = trimmed(text);
+    return shortened(trimmed(text.substr(0, text.find('\n'))), 120);
 }
 
 std::vector<std::int64_t> values_of(vtkDataArray& array) {
@@ -203,6 +204,7 @@ Trial try_in_child(std::size_t size, Attempt attempt) {
     const pid_t child = ::fork();
     if (child < 0) return Trial::passed;   // no process to be had: then without the trial
     if (child == 0) {
+        for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) std::signal(crash, SIG_DFL);   // no report of it: the sentence is the parent's
         const rlimit time_limit{seconds, seconds};
         [[maybe_unused]] const rlimit memory_limit{memory, memory};
         ::setrlimit(RLIMIT_CPU, &time_limit);
@@ -220,7 +222,8 @@ Trial try_in_child(std::size_t size, Attempt attempt) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
     if (!WIFEXITED(status)) return Trial::crashed;
-    return WEXITSTATUS(status) == out_of_memory ? Trial::too_large : Trial::passed;
+    if (WEXITSTATUS(status) == out_of_memory) return Trial::too_large;
+    return WEXITSTATUS(status) == 0 ? Trial::passed : Trial::crashed;   // a library, or a sanitizer, may end the process by itself
 }
 
 /// `read` makes VTK read and returns its output; `convert` takes what is needed of it.
