@@ -21,13 +21,6 @@ struct Hit {
     std::array<double, 3> weights{};   ///< of the element's corners
 };
 
-/// Out of an element as it is now, of any length.
-Vec3 outward(const SolidSurface& surface, std::uint32_t element) {
-    const auto& [ia, ib, ic] = surface.mesh().elements[element];
-    const Vec3 &a = surface.position[ia], &b = surface.position[ib], &c = surface.position[ic];
-    return surface.planar() ? Vec3{b.y - a.y, a.x - b.x, 0} : cross(b - a, c - a);
-}
-
 /// A vertex of one surface against the elements of another, the depth negative outside; clearance: how far it is from them at least, if it is not in.
 ///                                                                                             THEORY (21.5)
 Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search, double& clearance) {
@@ -44,7 +37,7 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
         const auto weights = other.planar() ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
         const Vec3 way = weights[0] * a + weights[1] * b + weights[2] * c - x;
         const double distance = norm(way);
-        const Vec3 across = outward(other, search.facing(e));
+        const Vec3 across = other.area_vector(search.facing(e));
         const double out = dot(way, across) / norm(across);   // positive: x lies behind the element
         // Where an edge or a corner is nearest its elements tie, and the one that x stands out of most tells the side.
         const bool is_tie = std::abs(distance - nearest) <= 1e-9 * nearest;

@@ -131,13 +131,6 @@ Vec3 SolidSurface::carried_at(std::size_t vertex, const Field<Vec3>& field) cons
     return sum.value();
 }
 
-Vec3 SolidSurface::area_vector(std::size_t element) const {
-    const auto& [a, b, c] = mesh_.elements[element];
-    const Vec3 ab = position[b] - position[a];
-    if (planar_) return {ab.y, -ab.x, 0};
-    return 0.5 * cross(ab, position[c] - position[a]);
-}
-
 void SolidSurface::add_pressure(std::uint16_t face, double pressure) {
     const double share = pressure / (planar_ ? 2 : 3);
     for_each_index(size(), [&](std::size_t v) {

@@ -48,6 +48,12 @@ public:
     void follow(const SolidParticles& particles);
     /// Of a vertex [m/s], with the particles' as they are now: most vertices touch nothing, and nobody asks for theirs.
     Vec3 velocity(std::size_t vertex) const;
+    /// Of an element as it is now, outward [m^2; planar: m].
+    Vec3 area_vector(std::size_t element) const {
+        const auto& [a, b, c] = mesh_.elements[element];
+        const Vec3 ab = position[b] - position[a];
+        return planar_ ? Vec3{ab.y, -ab.x, 0} : 0.5 * cross(ab, position[c] - position[a]);
+    }
     /// force += -pressure [Pa] times the outward area of the face as it is now, a third (a half) to each vertex.
     ///                                                                                             THEORY (21.4)
     void add_pressure(std::uint16_t face, double pressure);
@@ -72,7 +78,6 @@ private:
     void find_carriers(const SolidParticles& particles, double support);
     void find_elements_at();
     void transpose_carriers(const SolidParticles& particles);
-    Vec3 area_vector(std::size_t element) const;
     Vec3 carried_at(std::size_t vertex, const Field<Vec3>& field) const;
 
     SurfaceElements mesh_;
