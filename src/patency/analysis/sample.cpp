@@ -27,14 +27,12 @@ struct Datum {
     bool has_pressure;
 };
 
-constexpr int most_terms = 11;
-
-/// 1, x, y, (z), the products of two, and the cube of the way along a direction, by rising degree.
-void fill_basis(const Vec3& d, bool planar, const Vec3& direction, int terms, double* b) {
-    const double along = dot(d, direction), cube = along * along * along;
-    const double all[most_terms] = {1, d.x, d.y, d.z, d.x * d.x, d.x * d.y, d.y * d.y, d.x * d.z, d.y * d.z, d.z * d.z, cube};
-    const double flat[7] = {1, d.x, d.y, d.x * d.x, d.x * d.y, d.y * d.y, cube};
+/// 1, x, y, (z), and the products of two, by rising degree.
+int fill_basis(const Vec3& d, bool planar, int terms, double* b) {
+    const double all[10] = {1, d.x, d.y, d.z, d.x * d.x, d.x * d.y, d.y * d.y, d.x * d.z, d.y * d.z, d.z * d.z};
+    const double flat[6] = {1, d.x, d.y, d.x * d.x, d.x * d.y, d.y * d.y};
     for (int k = 0; k < terms; ++k) b[k] = planar ? flat[k] : all[k];
+    return terms;
 }
 
 double kernel_weight(double q) {   // Wendland C2 over its reach
@@ -43,13 +41,13 @@ double kernel_weight(double q) {   // Wendland C2 over its reach
 }
 
 /// Value and gradient at the place of one or several columns of numbers. Rows: terms; columns: as `values`.
-Eigen::MatrixXd fit(const std::vector<Datum>& data, bool planar, bool pressure, const Vec3& direction, int terms) {
+Eigen::MatrixXd fit(const std::vector<Datum>& data, bool planar, bool pressure, int terms) {
     const int columns = pressure ? 1 : 3;
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms), right = Eigen::MatrixXd::Zero(terms, columns);
-    double b[most_terms];
+    double b[10];
     for (const Datum& datum : data) {
         if (pressure && !datum.has_pressure) continue;
-        fill_basis(datum.d, planar, direction, terms, b);
+        fill_basis(datum.d, planar, terms, b);
         const double values[3] = {pressure ? datum.pressure : datum.velocity.x, datum.velocity.y, datum.velocity.z};
         for (int r = 0; r < terms; ++r) {
             for (int c = 0; c < terms; ++c) normal(r, c) += datum.weight * b[r] * b[c];
@@ -59,21 +57,19 @@ Eigen::MatrixXd fit(const std::vector<Datum>& data, bool planar, bool pressure, 
     return normal.ldlt().solve(right);
 }
 
-int count_terms(std::size_t points, bool planar, bool with_cube = false) {
+int count_terms(std::size_t points, bool planar) {
     const int quadratic = planar ? 6 : 10, linear = planar ? 3 : 4;
-    if (with_cube && double(points) >= surplus * (quadratic + 1)) return quadratic + 1;
     return double(points) >= surplus * quadratic ? quadratic : double(points) >= surplus * linear ? linear : 1;
 }
 
-/// `normal`: of the wall that the place is on, or zero.
-FlowSample evaluate(const std::vector<Datum>& data, bool planar, double reach, const Vec3& normal) {
+FlowSample evaluate(const std::vector<Datum>& data, bool planar, double reach) {
     std::size_t with_pressure = 0;
     for (const Datum& datum : data) with_pressure += datum.has_pressure;
     FlowSample sample{{NAN, NAN, NAN}, NAN, {}, int(with_pressure)};
     if (with_pressure == 0) return sample;
-    const int terms = count_terms(data.size(), planar, dot(normal, normal) > 0);
-    const Eigen::MatrixXd v = fit(data, planar, false, normal, terms);
-    const Eigen::MatrixXd p = fit(data, planar, true, normal, count_terms(with_pressure, planar));
+    const int terms = count_terms(data.size(), planar);
+    const Eigen::MatrixXd v = fit(data, planar, false, terms);
+    const Eigen::MatrixXd p = fit(data, planar, true, count_terms(with_pressure, planar));
     sample.velocity = {v(0, 0), v(0, 1), v(0, 2)};
     sample.pressure = p(0, 0);
     const auto slope = [&](int a) {
@@ -105,7 +101,7 @@ void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool pl
 }  // namespace
 
 std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
-                                    const LocalLength& reach, bool planar, const WallHint* wall, std::span<const Vec3> normals) {
+                                    const LocalLength& reach, bool planar, const WallHint* wall) {
     std::vector<FlowSample> samples(places.size());
     std::vector<double> own(places.size());
     for_each_index(places.size(), [&](std::size_t k) { own[k] = reach(places[k]); });
@@ -136,7 +132,7 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
                     if (weight > 0) data.push_back({d, weight, wall->velocity ? wall->velocity(wall_points[i]) : Vec3{}, 0, false});
                 });
             else if (wall && !data.empty()) add_wall(data, places[k], own[k], planar, *wall);
-            samples[k] = evaluate(data, planar, own[k], normals.empty() ? Vec3{} : normals[k]);
+            samples[k] = evaluate(data, planar, own[k]);
         }
     }
     return samples;

@@ -49,10 +49,9 @@ private:
 /// Weighted least squares with a full quadratic through the particles within `reach` of each place (a linear one where
 /// they are too few), weights of the Wendland kernel: exact for quadratic fields, third order. With a hint, places
 /// nearer to the wall than `reach` also see the wall's velocity, at points of the surface near them. `reach` is best 2h.
-/// Places on the wall may have their normals: there velocities may vary with the cube of the distance as well, for a boundary
-/// layer of a spacing's thickness is no parabola (THEORY.md 5.4). Periodic frames are seen through.
+/// Periodic frames are seen through.
 std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, const LocalLength& reach,
-                                    bool planar, const WallHint* wall = nullptr, std::span<const Vec3> normals = {});
+                                    bool planar, const WallHint* wall = nullptr);
 
 /// `count` places from one point to another, both included [m].
 std::vector<Vec3> places_along(const Vec3& from, const Vec3& to, int count);
