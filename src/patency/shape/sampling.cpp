@@ -85,8 +85,9 @@ LumenCandidates find_candidates(const Lumen& lumen, const Lattice& lattice, cons
     // A distance changes by at most the length of the way: blocks that are too far away are left out.
     constexpr long side = 3;
     const LatticeRange range(lattice, region_of(lumen, extent, spacing, outermost + spacing));
-    const auto [i0, j0, k0] = range.first;
-    const auto [i1, j1, k1] = range.last;
+    // Not by a structured binding: OpenMP and older Clangs do not hand those on.
+    const long i0 = range.first[0], j0 = range.first[1], k0 = range.first[2];
+    const long i1 = range.last[0], j1 = range.last[1], k1 = range.last[2];
     if (i1 < i0 || j1 < j0 || k1 < k0) return {};
     const double reach = outermost + norm(Vec3{lattice.cell.x, lattice.cell.y, lattice.planar ? 0 : lattice.cell.z});
     const std::size_t slabs = std::size_t((k1 - k0) / side + 1);
@@ -227,7 +228,7 @@ FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const Points
                                             spacing, by_depth.size(), inside));
         // The deepest ones, in lattice order, for neighbours in space to be neighbours in memory.
         const std::size_t end = std::min(all, by_depth.size());
-        const auto deepest_first = [&](std::size_t a, std::size_t b) {
+        const auto deepest_first = [&candidates = candidates](std::size_t a, std::size_t b) {
             return std::pair(candidates[a].depth, a) < std::pair(candidates[b].depth, b);
         };
         const auto at = [&](std::size_t n) { return by_depth.begin() + std::ptrdiff_t(n); };

@@ -68,8 +68,8 @@ std::vector<Ball> find_balls(const Lumen& lumen, double least) {
     std::vector<std::vector<Ball>> found(nx * ny * nz);
     const BallSearch search(lumen.distance, least);
     for_each_task(found.size(), [&](std::size_t n) {
-        const Vec3 at{double(n / (ny * nz)) + 0.5, double(n / nz % ny) + 0.5, double(n % nz) + 0.5};
-        search.add(lumen.bounds.low + side * at, 0.5 * side, found[n]);
+        const std::size_t i = n / (ny * nz), j = n / nz % ny, k = n % nz;
+        search.add(lumen.bounds.low + side * Vec3{double(i) + 0.5, double(j) + 0.5, double(k) + 0.5}, 0.5 * side, found[n]);
     });
     std::vector<Ball> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
@@ -202,7 +202,7 @@ void SpacingField::Grid::limit_growth(double growth) {
                 const auto is_inner = [](int at) { return (at & 7) > 0 && (at & 7) < 7; };
                 if (is_inner(i) && is_inner(j) && is_inner(k)) {   // all in one brick
                     for (const auto& [e, rise] : before)
-                        least = std::min(least, (&nodes_[m])[side * (64 * e[0] + 8 * e[1] + e[2])] + rise);
+                        least = std::min(least, (&nodes_[m])[std::ptrdiff_t(side) * (64 * e[0] + 8 * e[1] + e[2])] + rise);
                 } else {
                     for (const auto& [e, rise] : before)
                         if (const float* other = find(i + side * e[0], j + side * e[1], k + side * e[2]))

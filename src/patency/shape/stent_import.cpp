@@ -55,7 +55,7 @@ ImportedStent recognise_stent(Surface read) {
 
     const Moments m = moments(surface);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m.second);
-    const Eigen::Vector3d value = solver.eigenvalues();
+    const Eigen::Vector3d& value = solver.eigenvalues();
     const auto asymmetry_about = [&](int k) {
         const double a = value[(k + 1) % 3], b = value[(k + 2) % 3];
         return std::abs(a - b) / (a + b);

@@ -60,7 +60,7 @@ StrutMap::StrutMap(const StrutCurves& curves) : circumference_(curves.circumfere
             const std::vector<std::uint32_t> of_block = near_block(i, j, block, all_);
             for (int l = j; l < std::min(along_, j + block); ++l)
                 for (int k = i; k < std::min(around_, i + block); ++k)
-                    of_cell[std::size_t(l * around_ + k)] = near_block(k, l, 1, of_block);
+                    of_cell[std::size_t(l) * std::size_t(around_) + std::size_t(k)] = near_block(k, l, 1, of_block);
         }
     start_.push_back(0);
     for (const auto& found : of_cell) {

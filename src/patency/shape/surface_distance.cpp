@@ -186,7 +186,7 @@ std::vector<BrickOrigin> CornerDistances::find_bricks() const {
     const std::array<std::int32_t, 3> high{brick_at(box.high.x, origin_.x), brick_at(box.high.y, origin_.y),
                                            brick_at(box.high.z, origin_.z)};
     std::array<std::size_t, 3> groups;
-    for (std::size_t axis = 0; axis < 3; ++axis) groups[axis] = std::size_t((high[axis] - low[axis]) / group + 1);
+    for (std::size_t axis = 0; axis < 3; ++axis) groups[axis] = std::size_t(high[axis] - low[axis]) / std::size_t(group) + 1;
     std::vector<std::vector<BrickOrigin>> found(groups[0] * groups[1]);
     for_each_task(found.size(), [&](std::size_t column) {
         const auto a = std::int32_t(column / groups[1]), b = std::int32_t(column % groups[1]);

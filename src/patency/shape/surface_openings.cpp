@@ -203,7 +203,7 @@ void choose_inlet(std::vector<SurfaceOpening>& openings, std::string_view name_o
 
 void rename_openings(std::vector<SurfaceOpening>& openings, const std::map<std::string, std::string>& names) {
     for (const auto& [found, own] : names)
-        if (std::none_of(openings.begin(), openings.end(), [&](const SurfaceOpening& o) { return o.opening.name == found; }))
+        if (std::none_of(openings.begin(), openings.end(), [&found = found](const SurfaceOpening& o) { return o.opening.name == found; }))
             throw UsageError(fmt::format("there is no opening '{}' to be named", shortened(found)));
     for (SurfaceOpening& o : openings)
         if (const auto own = names.find(o.opening.name); own != names.end()) o.opening.name = own->second;
