@@ -114,12 +114,12 @@ PATENCY_INLINE P laplacian_weight(const Pair<P>& pair, const Quads<P>& diagonal,
 }
 
 /// What the slow terms need over the own body. Extra quads: (v, mu), the rows of the velocity gradient L in the loop's unit
-/// of length, (L_x, 1 or 0 for who dissipates), (L_y, 1 or 0 for who sees curvature), (L_z, .); of i also A (xx, yy, zz, .) and
+/// of length, (L_x, the root of the speed at which it dissipates), (L_y, 1 or 0 for who sees curvature), (L_z, .); of i also A (xx, yy, zz, .) and
 /// (xy, xz, yz, .), and the correction matrix C of the divergence in the same form. With b = (L_i - L_j) d / 2, what the
 /// curvature of the velocity takes from v_i - v_j, where i sees it:
 ///   0-8   sum w (v_i - v_j + b) d, by rows      9-11  sum wA mu (v_j - v_i), mu of the pair       THEORY.md (3.8)
 ///   12-14 sum wA d                              15    sum w b.C d
-///   16-18 sum w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity                 THEORY.md (4.9)
+///   16-18 sum sqrt(U_i U_j) w r (v_i - v_j - (L_i + L_j) d / 2): zero for a quadratic velocity   THEORY.md (4.9)
 /// and, where the viscosity varies:              19-21 sum w (mu_i - mu_j) d
 template <bool thinning>
 struct Viscosity {

@@ -208,7 +208,7 @@ SignedDistance body_of_revolution(std::vector<AxialRadius> outline, TubeEnds end
 
 SignedDistance round_tube(double radius) { return body_of_revolution({{0, radius}}, TubeEnds::open); }
 
-SignedDistance union_of_round_cones(std::vector<RoundCone> pieces) {
+SignedDistance union_of_round_cones(const std::vector<RoundCone>& pieces) {
     if (pieces.empty()) throw GeometryError("A vessel network needs at least one piece.");
     Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     std::vector<SphereRow> rows;

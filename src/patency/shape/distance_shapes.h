@@ -55,6 +55,6 @@ struct RoundCone {
 /// The union of round cones, which is a network of tapered round tubes with smooth joints:
 /// value = min over all spheres (|x - centre| - radius). Exact for one piece, and outside; inside a union
 /// only |value| <= the true distance, near the edges where pieces meet. At least one piece.
-SignedDistance union_of_round_cones(std::vector<RoundCone> pieces);
+SignedDistance union_of_round_cones(const std::vector<RoundCone>& pieces);
 
 }  // namespace patency

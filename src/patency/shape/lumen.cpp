@@ -223,7 +223,7 @@ Lumen make_branches(const BranchesShape& shape) {
         for (std::size_t j = 0; j < openings.size(); ++j)
             if (j != k) others.push_back(extensions[j]);
         if (others.empty()) continue;
-        const SignedDistance rest = union_of_round_cones(std::move(others));
+        const SignedDistance rest = union_of_round_cones(others);
         const double radius = openings[k].radius;
         for (double s = 0; s <= shape.extension; s += 0.25 * radius)
             if (rest.value(openings[k].centre + s * openings[k].normal) < radius)
@@ -234,7 +234,7 @@ Lumen make_branches(const BranchesShape& shape) {
 
     const Bounds bounds = union_of_round_cones(pieces).bounds();
     pieces.insert(pieces.end(), extensions.begin(), extensions.end());
-    Lumen lumen{.distance = union_of_round_cones(std::move(pieces)),
+    Lumen lumen{.distance = union_of_round_cones(pieces),
                 .openings = std::move(openings),
                 .volume = 0,
                 .wall_area = 0,
