@@ -101,6 +101,14 @@ class Run(unittest.TestCase):
         self.assertEqual(code, 8, output)
         self.assertIn("-R particles", output)
 
+    def test_checks_the_unit_tests_in_a_build_of_their_own(self):
+        self.add_program("bin/ctest", 'echo "ctest $*"; exit 8')
+        code, output = self.run_it("sanitize", "-R", "pairs")
+        self.assertEqual(code, 8, output)
+        folder = f"{self.tree}/build/sanitize"
+        self.assertIn(f"cmake --preset sanitize\ncmake --build {folder} --target unit_tests\nctest --test-dir {folder} ", output)
+        self.assertTrue(output.endswith(" -R pairs\n"), output)
+
     def test_makes_a_package_of_one_build_per_instruction_set(self):
         self.add_program("bin/cmake", '''echo "cmake $*"; [[ $1 != --build ]] || mkdir -p "$2"''')
         self.add_program("bin/cpack", "touch_package() { : > patency_1_amd64.deb; }; touch_package")
