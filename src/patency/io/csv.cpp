@@ -106,7 +106,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, std::vector<std::string>
 }
 
 CsvWriter CsvWriter::resumed(const std::filesystem::path& path, std::vector<std::string> columns, double last_time) {
-    if (!std::filesystem::exists(path)) return CsvWriter(path, std::move(columns));
+    if (!std::filesystem::exists(path)) return CsvWriter(path, columns);
     const std::string kept = kept_lines(path, columns, last_time);
     return CsvWriter(path, std::move(columns), kept);
 }
