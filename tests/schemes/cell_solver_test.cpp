@@ -317,15 +317,14 @@ TEST(CellSolver, isTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(found[0].velocity, found[2].velocity);
 }
 
-// From noise, by steps that are far too long for it: where they lead away the next one is shorter, and where they are lost it is back to the best.
+// From noise, by steps that are too long for it: where they lead away the next one is shorter, and where they are lost it is back to the best.
 TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
-    for (const auto& [noise, courant] : {std::pair{1.0, 1000.0}, std::pair{1.0, 100.0}, std::pair{10.0, 50.0}}) {
+    const auto finds_back = [](double noise, std::uint32_t dice) {
         Pipe pipe(6, 0.3);
         pipe.speed = 0.05, pipe.inlet.flow = -pipe.flow();
         pipe.outlet = {.kind = CellEnd::Kind::pressure, .pressure = 5, .resistance = 2e9};
         CellBalance balance = pipe.balance();
         CellFields fields = still(pipe.mesh);
-        std::uint32_t dice = 1;
         const auto random = [&] {
             dice = dice * 1664525u + 1013904223u;
             return noise * pipe.speed * (double(dice >> 8) / (1 << 24) - 0.5);
@@ -336,8 +335,17 @@ TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
             fields.pressure[i] = density * noise * pipe.speed * random();
         }
         balance.set_fields(fields);
-        EXPECT_TRUE(solve(balance, pipe.mesh, {.first_courant = courant, .courant = courant}).is_converged) << noise;
-    }
+        try {
+            return solve(balance, pipe.mesh, {.first_courant = 20, .courant = 20}).is_converged;
+        } catch (const DivergedError&) {
+            return false;
+        }
+    };
+    // One seed tells nothing. With steps that are never shorter 11 and 9 of 20 come back, without a way to the best 20 and 16.
+    int from_noise = 0, from_more = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) from_noise += finds_back(1, seed), from_more += finds_back(10, seed);
+    EXPECT_EQ(from_noise, 20);
+    EXPECT_GE(from_more, 18);
 }
 
 TEST(CellSolver, saysWhenItDoesNotConverge) {
@@ -394,7 +402,7 @@ int linear_steps(const Pipe& pipe) {
         balance.add_openings(x, y);
     };
     const CellOperator precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
-    return solve_by_krylov(multiply, precondition, right, change, 60, 1e-2).steps;
+    return CellKrylov().solve(multiply, precondition, right, change, 60, 1e-2).steps;
 }
 
 // Sums of entries alone are too stiff on coarser levels, and the more of them there are the more steps it would take. THEORY.md (18.13)
@@ -414,7 +422,10 @@ TEST(CellKrylov, solvesWhatItIsGiven) {
     CellVectors wanted(count), right(count), found;
     for (std::size_t i = 0; i < count; ++i) wanted[i] = CellVector{float(i), 1, -2, 0.5f * float(i)};
     multiply(wanted, right);
-    const KrylovResult result = solve_by_krylov(multiply, divide, right, found, 60, 1e-6);
+    CellKrylov krylov;
+    CellVectors shorter(count / 2, CellVector{1, 2, 3, 4}), ignored;   // what is kept of one solution tells the next nothing
+    krylov.solve(multiply, divide, shorter, ignored, 3, 1e-6);
+    const KrylovResult result = krylov.solve(multiply, divide, right, found, 60, 1e-6);
     EXPECT_LT(result.residual, 1e-6);
     for (std::size_t i = 0; i < count; ++i)
         for (int k = 0; k < 4; ++k) ASSERT_NEAR(found[i][k], wanted[i][k], 2e-3f);

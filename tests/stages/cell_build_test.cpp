@@ -172,7 +172,7 @@ numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s", without_rest: fol
     EXPECT_EQ(text_of(whole.file("waveforms.csv")), text_of(out.file("waveforms.csv")));
 }
 
-// A slower one comes to rest in 190 steps; if they are not mixed, it takes 490.
+// A slower one comes to rest in 140 to 340 steps, as chance has it; if they are not mixed, it takes 490 to 610.
 TEST(CellScene, FindsTheRestOfAJet) {
     const auto scene = make_solved_scene(deck::parse_case(R"(version: 1
 case: {name: jet}
@@ -184,7 +184,7 @@ openings:
 numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s"}
 )"));
     EXPECT_TRUE(scene->solution.is_converged);
-    EXPECT_LT(scene->solution.history.size(), 300u);
+    EXPECT_LT(scene->solution.history.size(), 400u);
 }
 
 // What rests goes on resting: the march begins with the steady flow's pressures and keeps them.

@@ -284,6 +284,7 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
         const CellState& cell = state_[i];
         double p_diagonal = 0, m_diagonal = 0, signals = 0;
         Vec3 gradient{}, divergence{};
+        CellRow row(level, i);
         for (std::size_t k = mesh_.row_start[i]; k < mesh_.row_start[i + 1]; ++k) {
             const CellNeighbour& n = mesh_.row[k];
             const CellFace& face = mesh_.faces[n.face];
@@ -292,8 +293,8 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
                          viscous = nu * face.conductance;
             const double coupling = size / both, transport = std::min(volume, 0.0) - viscous;
             const Vec3 half = 0.5 * sign * face.area;
-            level.coupling[k] = quad(-coupling, half);
-            level.transport[k] = float(transport);
+            CellMatrixEntry& entry = row.next(n.cell);
+            entry = {{float(-coupling), float(half.x), float(half.y), float(half.z)}, float(transport), n.cell};
             p_diagonal += coupling;
             m_diagonal -= transport;
             gradient += half;
@@ -318,7 +319,7 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
         const double slowness = signals / (2 * step.courant);
         m_diagonal += slowness + rate_ * mesh_.volume[i];
         p_diagonal += step.pressure_share * slowness / (cell.c * cell.c);
-        level.diagonal[i] = {float(p_diagonal), float(m_diagonal), quad(0, gradient), quad(0, divergence)};
+        level.diagonal[i] = {.p_diagonal = float(p_diagonal), .m_diagonal = float(m_diagonal), .gradient = quad(0, gradient), .divergence = quad(0, divergence)};
         right[i] = quad(-lack_[i].volume, -1.0 * lack_[i].momentum);
     });
     matrix.make_coarse();

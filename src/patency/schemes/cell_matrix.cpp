@@ -2,7 +2,9 @@
 #include "patency/schemes/cell_matrix.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <span>
 
 #include "patency/base/parallel.h"
 
@@ -18,7 +20,6 @@ double product(const CellVectors& a, const CellVectors& b) {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t block_rows = 512;   // smoothed one after the other
 constexpr std::size_t fewest_rows = 60;   // of the coarsest level
 constexpr int coarsest_sweeps = 10;
 constexpr int rounds = 3;   // of pairing per level: eight cells become one
@@ -80,86 +81,152 @@ Graph joined_graph(const Graph& fine, const std::vector<std::uint32_t>& group, s
     return coarse;
 }
 
-/// Greedy colours of the runs of rows, neighbours by the matrix' entries.
-std::vector<std::vector<std::uint32_t>> colour_blocks(const CellLevel& level) {
-    const std::size_t blocks = (level.size() + block_rows - 1) / block_rows;
-    std::vector<std::vector<std::uint32_t>> touches(blocks), colours;
-    for (std::uint32_t i = 0; i < level.size(); ++i)
-        for (std::uint32_t k = level.start[i]; k < level.start[i + 1]; ++k) {
-            const auto a = std::uint32_t(i / block_rows), b = std::uint32_t(level.column[k] / block_rows);
+/// Greedy colours of the runs of rows.
+void colour_runs(const Graph& graph, CellLevel& level) {
+    constexpr std::size_t length = CellLevel::run_length;
+    const std::size_t runs = (graph.size() + length - 1) / length;
+    std::vector<std::vector<std::uint32_t>> touches(runs);
+    for (std::uint32_t i = 0; i < graph.size(); ++i)
+        for (std::uint32_t k = graph.start[i]; k < graph.start[i + 1]; ++k) {
+            const auto a = std::uint32_t(i / length), b = std::uint32_t(graph.column[k] / length);
             if (a != b && (touches[a].empty() || touches[a].back() != b)) touches[a].push_back(b);
         }
-    std::vector<std::size_t> colour(blocks, blocks);
-    for (std::uint32_t a = 0; a < blocks; ++a) {
-        std::vector<char> is_taken(colours.size() + 1, 0);
+    level.colour.assign(runs, std::uint32_t(runs));
+    for (std::uint32_t a = 0; a < runs; ++a) {
+        std::vector<char> is_taken(level.colours.size() + 1, 0);
         for (const std::uint32_t b : touches[a])
-            if (colour[b] < is_taken.size()) is_taken[colour[b]] = 1;
-        colour[a] = std::size_t(std::find(is_taken.begin(), is_taken.end(), 0) - is_taken.begin());
-        if (colour[a] == colours.size()) colours.emplace_back();
-        colours[colour[a]].push_back(a);
+            if (level.colour[b] < is_taken.size()) is_taken[level.colour[b]] = 1;
+        level.colour[a] = std::uint32_t(std::find(is_taken.begin(), is_taken.end(), 0) - is_taken.begin());
+        if (level.colour[a] == level.colours.size()) level.colours.emplace_back();
+        level.colours[level.colour[a]].push_back(a);
     }
-    return colours;
 }
 
-void allocate(CellLevel& level, std::size_t rows) {
+CellLevel make_level(const Graph& graph) {
+    CellLevel level;
+    const std::size_t rows = graph.size();
     level.diagonal.resize(rows);
-    level.coupling.resize(level.column.size());
-    level.transport.resize(level.column.size());
     level.x.resize(rows), level.b.resize(rows), level.r.resize(rows);
-    level.colours = colour_blocks(level);
+    colour_runs(graph, level);
+    level.earlier.start.assign(1, 0), level.later.start.assign(1, 0);
+    for (std::uint32_t i = 0; i < rows; ++i) {
+        for (std::uint32_t k = graph.start[i]; k < graph.start[i + 1]; ++k) {
+            const std::uint32_t j = graph.column[k];
+            (level.is_earlier(j, i) ? level.earlier : level.later).entry.push_back({{}, 0, j});
+        }
+        for (CellTriangle* part : {&level.earlier, &level.later}) part->start.push_back(std::uint32_t(part->entry.size()));
+    }
+    return level;
+}
+
+/// The place of a column in a row: those of `later` are counted behind those of `earlier`.
+std::size_t place_in_row(const CellLevel& level, std::size_t i, std::uint32_t column) {
+    const auto place = [column](std::span<const CellMatrixEntry> row) {
+        const auto is_left = [](const CellMatrixEntry& e, std::uint32_t to) { return e.column < to; };
+        return std::size_t(std::lower_bound(row.begin(), row.end(), column, is_left) - row.begin());
+    };
+    const auto earlier = level.earlier.row(i);
+    return level.is_earlier(column, i) ? place(earlier) : earlier.size() + place(level.later.row(i));
 }
 
 constexpr CellVector broadcast(float s) { return CellVector{s, s, s, s}; }
 
-/// What the neighbours add to row i.
-inline CellVector off_diagonal(const CellLevel& level, const CellVectors& x, std::size_t i) {
-    CellVector mass{}, momentum{};
-    for (std::uint32_t k = level.start[i], end = level.start[i + 1]; k < end; ++k) {
-        const CellVector y = x[level.column[k]], a = level.coupling[k];
-        mass += a * y;
-        momentum += broadcast(level.transport[k]) * y + a * broadcast(y[0]);
-    }
-    momentum[0] = (mass[0] + mass[1]) + (mass[2] + mass[3]);
-    return momentum;
+CellVector coupling_of(const CellMatrixEntry& entry) {
+    CellVector a;
+    std::memcpy(&a, entry.coupling, sizeof a);
+    return a;
 }
+
+struct EntrySum {
+    CellVector coupling{};
+    float transport = 0;
+};
+
+/// What neighbours add to a row. A sweep back goes through memory backwards, or what it needs next would not be fetched ahead.
+struct RowSum {
+    CellVector mass{}, momentum{};
+
+    void add(const CellMatrixEntry& e, const CellVectors& x) {
+        const CellVector y = x[e.column], a = coupling_of(e);
+        mass += a * y;
+        momentum += broadcast(e.transport) * y + a * broadcast(y[0]);
+    }
+    RowSum& add(std::span<const CellMatrixEntry> row, const CellVectors& x) {
+        for (const CellMatrixEntry& e : row) add(e, x);
+        return *this;
+    }
+    RowSum& add_back(std::span<const CellMatrixEntry> row, const CellVectors& x) {
+        for (std::size_t k = row.size(); k-- > 0;) add(row[k], x);
+        return *this;
+    }
+    CellVector value() const {
+        CellVector sum = momentum;
+        sum[0] = (mass[0] + mass[1]) + (mass[2] + mass[3]);
+        return sum;
+    }
+};
 
 inline CellVector row_times(const CellLevel& level, const CellVectors& x, std::size_t i) {
     const CellMatrixRow& d = level.diagonal[i];
     const CellVector y = x[i], div = d.divergence * y;
     CellVector sum = broadcast(d.m_diagonal) * y + d.gradient * broadcast(y[0]);
     sum[0] = d.p_diagonal * y[0] + (div[1] + div[2] + div[3]);
-    return sum + off_diagonal(level, x, i);
+    return sum + RowSum().add(level.earlier.row(i), x).add(level.later.row(i), x).value();
 }
 
-/// Solves row i for its own four unknowns.
-inline void relax_row(CellLevel& level, std::size_t i) {
+void prepare(CellMatrixRow& d) {
+    const CellVector square = d.divergence * d.gradient;
+    d.per_momentum = 1 / d.m_diagonal;
+    d.per_pressure = 1 / (d.p_diagonal - (square[1] + square[2] + square[3]) * d.per_momentum);
+}
+
+/// Solves row i, whose neighbours add so much, for its own four unknowns.
+inline void relax_row(CellLevel& level, std::size_t i, const CellVector& of_neighbours) {
     const CellMatrixRow& d = level.diagonal[i];
-    const CellVector right = level.b[i] - off_diagonal(level, level.x, i);
-    const float inverse = 1 / d.m_diagonal;
-    const CellVector through = d.divergence * right, square = d.divergence * d.gradient;
-    const float schur = d.p_diagonal - (square[1] + square[2] + square[3]) * inverse;
-    const float p = (right[0] - (through[1] + through[2] + through[3]) * inverse) / schur;
-    CellVector x = broadcast(inverse) * (right - d.gradient * broadcast(p));
+    const CellVector right = level.b[i] - of_neighbours, through = d.divergence * right;
+    const float p = (right[0] - (through[1] + through[2] + through[3]) * d.per_momentum) * d.per_pressure;
+    CellVector x = broadcast(d.per_momentum) * (right - d.gradient * broadcast(p));
     x[0] = p;
     level.x[i] = x;
 }
 
-void sweep_there_and_back(CellLevel& level) {
-    const auto block = [&](std::uint32_t b, bool back) {
-        const std::size_t begin = b * block_rows, end = std::min(level.size(), begin + block_rows);
-        if (back)
-            for (std::size_t i = end; i-- > begin;) relax_row(level, i);
-        else
-            for (std::size_t i = begin; i < end; ++i) relax_row(level, i);
+template <class Rows>
+void for_each_run(const CellLevel& level, const std::vector<std::uint32_t>& runs, Rows rows) {
+    const auto run = [&](std::size_t k) {
+        const std::size_t begin = runs[k] * CellLevel::run_length;
+        rows(begin, std::min(level.size(), begin + CellLevel::run_length));
     };
-    for (const bool back : {false, true})
-        for (std::size_t n = 0; n < level.colours.size(); ++n) {
-            const auto& blocks = level.colours[back ? level.colours.size() - 1 - n : n];
-            if (blocks.size() == 1)
-                block(blocks[0], back);
-            else
-                for_each_task(blocks.size(), [&](std::size_t k) { block(blocks[k], back); });
-        }
+    if (runs.size() == 1) run(0);
+    else for_each_task(runs.size(), run);
+}
+
+/// What was there of x counts as zero, so only neighbours that the sweep has come to before add anything.
+void sweep_there_from_zero(CellLevel& level) {
+    for (const auto& runs : level.colours)
+        for_each_run(level, runs, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) relax_row(level, i, RowSum().add(level.earlier.row(i), level.x).value());
+        });
+}
+
+/// And all that this leaves is what the neighbours add that it came to afterwards.
+void compute_residual_of_sweep(CellLevel& level) {
+    for_each_index(level.size(), [&](std::size_t i) { level.r[i] = -RowSum().add(level.later.row(i), level.x).value(); });
+}
+
+void sweep_there(CellLevel& level) {
+    for (const auto& runs : level.colours)
+        for_each_run(level, runs, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                relax_row(level, i, RowSum().add(level.later.row(i), level.x).add(level.earlier.row(i), level.x).value());
+        });
+}
+
+void sweep_back(CellLevel& level) {
+    for (auto runs = level.colours.rbegin(); runs != level.colours.rend(); ++runs)
+        for_each_run(level, *runs, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = end; i-- > begin;)
+                relax_row(level, i, RowSum().add_back(level.earlier.row(i), level.x).add_back(level.later.row(i), level.x).value());
+        });
 }
 
 }   // namespace
@@ -171,12 +238,7 @@ CellMatrix::CellMatrix(const CellMesh& mesh) {
         graph.column.push_back(n.cell);
         graph.weight.push_back(float(mesh.faces[n.face].conductance));
     }
-    CellLevel first;
-    first.start = graph.start;
-    first.column = graph.column;
-    first.diagonal.resize(mesh.size());
-    allocate(first, mesh.size());
-    levels_.push_back(std::move(first));
+    levels_.push_back(make_level(graph));
     while (levels_.back().size() > fewest_rows) {
         CellLevel& fine = levels_.back();
         fine.parent.resize(fine.size());
@@ -188,24 +250,19 @@ CellMatrix::CellMatrix(const CellMesh& mesh) {
             for (std::uint32_t& p : fine.parent) p = pair[p];
         }
         if (count > 0.8 * double(fine.size())) break;   // nothing hangs together any more
-        CellLevel coarse;
-        coarse.start = graph.start;
-        coarse.column = graph.column;
-        coarse.diagonal.resize(count);
-        allocate(coarse, count);
+        CellLevel coarse = make_level(graph);
         coarse.first.resize(count), coarse.answer.resize(count);
         list_members(fine.parent, count, coarse.child_start, coarse.child);
-        fine.entry_parent.resize(fine.column.size());
-        for_each_index(fine.size(), [&](std::size_t i) {
-            const std::uint32_t p = fine.parent[i];
-            for (std::uint32_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
-                const std::uint32_t q = fine.parent[fine.column[k]];
-                const auto begin = coarse.column.begin() + coarse.start[p],
-                           end = coarse.column.begin() + coarse.start[p + 1];
-                fine.entry_parent[k] =
-                    q == p ? CellLevel::inside : std::uint32_t(std::lower_bound(begin, end, q) - coarse.column.begin());
-            }
-        });
+        for (CellTriangle* part : {&fine.earlier, &fine.later}) {
+            part->parent.resize(part->entry.size());
+            for_each_index(fine.size(), [&](std::size_t i) {
+                const std::uint32_t p = fine.parent[i];
+                for (std::uint32_t k = part->start[i]; k < part->start[i + 1]; ++k) {
+                    const std::uint32_t q = fine.parent[part->entry[k].column];
+                    part->parent[k] = q == p ? CellTriangle::inside : std::uint16_t(place_in_row(coarse, p, q));
+                }
+            });
+        }
         levels_.push_back(std::move(coarse));
     }
 }
@@ -214,30 +271,39 @@ void CellMatrix::make_coarse() {
     for (std::size_t n = 0; n + 1 < levels_.size(); ++n) {
         const CellLevel& fine = levels_[n];
         CellLevel& coarse = levels_[n + 1];
-        for_each_index(coarse.size(), [&](std::size_t p) {
-            CellMatrixRow sum;
-            for (std::uint32_t k = coarse.start[p]; k < coarse.start[p + 1]; ++k)
-                coarse.coupling[k] = CellVector{}, coarse.transport[k] = 0;
-            for (std::uint32_t c = coarse.child_start[p]; c < coarse.child_start[p + 1]; ++c) {
-                const std::uint32_t i = coarse.child[c];
-                const CellMatrixRow& own = fine.diagonal[i];
-                sum.p_diagonal += own.p_diagonal, sum.m_diagonal += own.m_diagonal;
-                sum.gradient += own.gradient, sum.divergence += own.divergence;
-                for (std::uint32_t k = fine.start[i]; k < fine.start[i + 1]; ++k) {
-                    const CellVector a = fine.coupling[k];
-                    if (const std::uint32_t to = fine.entry_parent[k]; to != CellLevel::inside) {
-                        coarse.coupling[to] += a;
-                        coarse.transport[to] += fine.transport[k];
-                    } else {
-                        const CellVector area{0, a[1], a[2], a[3]};
-                        sum.p_diagonal += a[0], sum.m_diagonal += fine.transport[k];
-                        sum.gradient += area, sum.divergence += area;
-                    }
+        for_each_block(coarse.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<EntrySum> sums;   // a coarse row
+            for (std::size_t p = begin; p < end; ++p) {
+                CellMatrixRow diagonal;
+                sums.assign(coarse.earlier.row(p).size() + coarse.later.row(p).size(), {});
+                for (std::uint32_t c = coarse.child_start[p]; c < coarse.child_start[p + 1]; ++c) {
+                    const std::uint32_t i = coarse.child[c];
+                    const CellMatrixRow& own = fine.diagonal[i];
+                    diagonal.p_diagonal += own.p_diagonal, diagonal.m_diagonal += own.m_diagonal;
+                    diagonal.gradient += own.gradient, diagonal.divergence += own.divergence;
+                    for (const CellTriangle* part : {&fine.earlier, &fine.later})
+                        for (std::uint32_t k = part->start[i]; k < part->start[i + 1]; ++k) {
+                            const CellVector a = coupling_of(part->entry[k]);
+                            if (const auto to = part->parent[k]; to != CellTriangle::inside) {
+                                sums[to].coupling += a, sums[to].transport += part->entry[k].transport;
+                            } else {
+                                const CellVector area{0, a[1], a[2], a[3]};
+                                diagonal.p_diagonal += a[0], diagonal.m_diagonal += part->entry[k].transport;
+                                diagonal.gradient += area, diagonal.divergence += area;
+                            }
+                        }
                 }
+                coarse.diagonal[p] = diagonal;
+                const EntrySum* sum = sums.data();
+                for (CellTriangle* part : {&coarse.earlier, &coarse.later})
+                    for (std::uint32_t k = part->start[p]; k < part->start[p + 1]; ++k, ++sum) {
+                        std::memcpy(part->entry[k].coupling, &sum->coupling, sizeof sum->coupling);
+                        part->entry[k].transport = sum->transport;
+                    }
             }
-            coarse.diagonal[p] = sum;
         });
     }
+    for (CellLevel& level : levels_) for_each_index(level.size(), [&](std::size_t i) { prepare(level.diagonal[i]); });
 }
 
 void CellMatrix::multiply(const CellVectors& x, CellVectors& y) const {
@@ -248,30 +314,29 @@ void CellMatrix::multiply(const CellVectors& x, CellVectors& y) const {
 void CellMatrix::precondition(const CellVectors& b, CellVectors& x) {
     CellLevel& level = levels_.front();
     level.b = b;
-    std::fill(level.x.begin(), level.x.end(), CellVector{});
     cycle(0);
     x = level.x;
 }
 
 void CellMatrix::cycle(std::size_t n) {
     CellLevel& level = levels_[n];
+    sweep_there_from_zero(level);
     if (n + 1 == levels_.size()) {
-        for (int k = 0; k < coarsest_sweeps; ++k) sweep_there_and_back(level);
+        for (int k = 1; k < coarsest_sweeps; ++k) sweep_back(level), sweep_there(level);
+        sweep_back(level);
         return;
     }
-    sweep_there_and_back(level);
+    compute_residual_of_sweep(level);
     CellLevel& coarse = levels_[n + 1];
-    for_each_index(level.size(), [&](std::size_t i) { level.r[i] = level.b[i] - row_times(level, level.x, i); });
     for_each_index(coarse.size(), [&](std::size_t p) {
         CellVector sum{};
         for (std::uint32_t c = coarse.child_start[p]; c < coarse.child_start[p + 1]; ++c)
             sum += level.r[coarse.child[c]];
         coarse.b[p] = sum;
-        coarse.x[p] = CellVector{};
     });
     solve_coarse(n + 1);
     for_each_index(level.size(), [&](std::size_t i) { level.x[i] += coarse.x[level.parent[i]]; });
-    sweep_there_and_back(level);
+    sweep_back(level);
 }
 
 /// x about the inverse times b by one or two cycles, each as long as leaves least: joined cells are too stiff by a factor that grows from
@@ -293,7 +358,6 @@ void CellMatrix::solve_coarse(std::size_t n) {
         for_each_index(level.size(), [&](std::size_t i) { level.x[i] = broadcast(float(share)) * first[i]; });
         return;
     }
-    std::fill(level.x.begin(), level.x.end(), CellVector{});
     cycle(n);
     CellVectors& second_answer = level.r;
     for_each_index(level.size(), [&](std::size_t i) { second_answer[i] = row_times(level, level.x, i); });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "patency/cells/cell_mesh.h"
@@ -21,27 +22,62 @@ double product(const CellVectors& a, const CellVectors& b);
 ///         velocity  m_diagonal u_i + gradient p_i     + sum_j (m_ij u_j + a_ij p_j)
 struct CellMatrixRow {
     float p_diagonal = 0, m_diagonal = 0;
-    CellVector gradient{}, divergence{};   // their first number is zero
+    float per_momentum = 0, per_pressure = 0;   // what the row is solved by for its own four unknowns: make_coarse sets them
+    CellVector gradient{}, divergence{};        // their first number is zero
+};
+
+/// What a neighbour adds to a row.
+struct CellMatrixEntry {
+    float coupling[4];   ///< -c, a_x, a_y, a_z
+    float transport;     ///< m
+    std::uint32_t column;
+};
+
+/// A part of every row, by rising columns. One stream of memory: of many cells nothing else is waited for.
+struct CellTriangle {
+    std::vector<std::uint32_t> start;   // rows, and one more
+    std::vector<CellMatrixEntry> entry;
+    std::vector<std::uint16_t> parent;   // the coarser entry, as it is counted in its row; `inside` if both cells have one parent
+
+    static constexpr std::uint16_t inside = 0xffff;
+    std::span<const CellMatrixEntry> row(std::size_t i) const { return {entry.data() + start[i], entry.data() + start[i + 1]}; }
 };
 
 struct CellLevel {
-    std::vector<std::uint32_t> start, column;   // rows; ascending
-    std::vector<CellVector> coupling;           // (-c, a_x, a_y, a_z)
-    std::vector<float> transport;               // m
+    CellTriangle earlier, later;   // neighbours that a sweep there comes to before the row, and after it
     std::vector<CellMatrixRow> diagonal;
 
     std::vector<std::uint32_t> parent;               // the coarser cell
     std::vector<std::uint32_t> child_start, child;   // of the finer level, by this level's cells
-    std::vector<std::uint32_t> entry_parent;         // the coarser entry; `inside` if both cells have one parent
 
-    // Runs of block_rows rows are smoothed in turn: first all of colour 0, on all threads, then of colour 1, ..
+    // Runs of run_length rows are smoothed in turn: first all of colour 0, on all threads, then of colour 1, ..
     // No two neighbouring runs have one colour, so the order does not depend on the number of threads.
-    std::vector<std::vector<std::uint32_t>> colours;
+    static constexpr std::size_t run_length = 512;
+    std::vector<std::uint32_t> colour;                 // per run
+    std::vector<std::vector<std::uint32_t>> colours;   // runs of each
     CellVectors x, b, r;
     CellVectors first, answer;   // of a coarser level's first cycle: what it found, and the matrix times that
 
-    static constexpr std::uint32_t inside = 0xffffffff;
     std::size_t size() const { return diagonal.size(); }
+    /// Whether a sweep there comes to row j before row i.
+    bool is_earlier(std::size_t j, std::size_t i) const {
+        const std::size_t of_j = j / run_length, of_i = i / run_length;
+        return of_j == of_i ? j < i : colour[of_j] < colour[of_i];
+    }
+};
+
+/// The entries of a row in the order of its columns.
+class CellRow {
+public:
+    CellRow(CellLevel& level, std::size_t i) : level_(level), row_(i), earlier_(level.earlier.start[i]), later_(level.later.start[i]) {}
+    CellMatrixEntry& next(std::size_t column) {
+        return level_.is_earlier(column, row_) ? level_.earlier.entry[earlier_++] : level_.later.entry[later_++];
+    }
+
+private:
+    CellLevel& level_;
+    std::size_t row_;
+    std::uint32_t earlier_, later_;
 };
 
 class CellMatrix {
@@ -49,7 +85,7 @@ public:
     /// Cells that share the largest conductances are joined, in three rounds of pairs per level, until few are left.
     explicit CellMatrix(const CellMesh& mesh);
 
-    /// The rows of the cells: entries as mesh.row. Fill them, then call make_coarse.
+    /// The rows of the cells: a CellRow goes through the neighbours as mesh.row does. Fill all, then call make_coarse.
     CellLevel& finest() { return levels_.front(); }
     void make_coarse();
 
