@@ -278,7 +278,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Impossible{"crown_radius is 0.05 mm, at least 0.06 mm", [](StentPattern& p) { p.crown_radius = 50e-6; }},
         Impossible{"crown_radius is 0.6 mm, at most", [](StentPattern& p) { p.crown_radius = 600e-6; }},
-        Impossible{"length is 4 mm, at least", [](StentPattern& p) { p.length = 4e-3; }},
+        Impossible{"length is 3 mm, at least", [](StentPattern& p) { p.length = 3e-3; }},
         Impossible{"crimped_diameter", [](StentPattern& p) { p.crimped_diameter = 0.4e-3; }},
         Impossible{"nominal_diameter", [](StentPattern& p) { p.nominal_diameter = 8e-3; }},
         Impossible{"gap", [](StentPattern& p) { p.gap = 0; }},
