@@ -8,7 +8,6 @@ namespace patency {
 
 namespace {
 
-constexpr std::size_t run_length = 8;   // pieces; a compromise between spheres and pieces to look at
 constexpr double largest_jump = 1.5;    // the radius, and so the field, may jump where two pieces are equally near
 
 }   // namespace
@@ -27,20 +26,31 @@ TubeField::TubeField(const Tube& tube)
         const Vec3 centre = 0.5 * (points_[first] + points_[last]);
         double reach = 0;
         for (std::size_t k = first; k <= last; ++k) reach = std::max(reach, norm(points_[k] - centre));
-        runs_.push_back({first, last, centre, reach});
+        Run run{.first = first, .centre = centre, .reach = reach, .start = {}, .piece = {}, .square = {}};
+        for (int n = 0; n < run_length; ++n) {
+            const std::size_t k = std::min(first + std::size_t(n), last - 1);
+            const Vec3 &start = points_[k], piece = points_[k + 1] - start;
+            run.start.x.v[n] = start.x, run.start.y.v[n] = start.y, run.start.z.v[n] = start.z;
+            run.piece.x.v[n] = piece.x, run.piece.y.v[n] = piece.y, run.piece.z.v[n] = piece.z;
+            run.square.v[n] = dot(piece, piece);
+        }
+        runs_.push_back(run);
     }
 }
 
 TubeField::Nearest TubeField::nearest(const Vec3& x) const {
     Nearest best{Bounds::infinity, radii_[0]};
     const auto look_at = [&](const Run& run) {
-        for (std::size_t k = run.first; k < run.last; ++k) {
-            const Vec3 piece = points_[k + 1] - points_[k], d = x - points_[k];
-            const double share = std::clamp(dot(d, piece) / dot(piece, piece), 0.0, 1.0);
-            const Vec3 beside = d - share * piece;
-            const double squared = dot(beside, beside);
-            if (squared < best.squared_distance) best = {squared, radii_[k] + share * (radii_[k + 1] - radii_[k])};
-        }
+        using P = Run::P;
+        const Vec<P> d = Vec<P>{P(x.x), P(x.y), P(x.z)} - run.start;
+        const P share = min(max(dot(d, run.piece) / run.square, P(0)), P(1));
+        const Vec<P> beside = d - share * run.piece;
+        const P squared = dot(beside, beside);
+        for (int n = 0; n < run_length; ++n)
+            if (squared[n] < best.squared_distance) {
+                const std::size_t k = std::min(run.first + std::size_t(n), points_.size() - 2);
+                best = {squared[n], radii_[k] + share[n] * (radii_[k + 1] - radii_[k])};
+            }
     };
     // First the run whose centre is nearest, then those that may hold something nearer.
     const Run* start = &runs_[0];
@@ -50,10 +60,13 @@ TubeField::Nearest TubeField::nearest(const Vec3& x) const {
         if (dot(d, d) < least) least = dot(d, d), start = &run;
     }
     look_at(*start);
+    double nearest_yet = std::sqrt(best.squared_distance);   // a root per run would take longer than all else
     for (const Run& run : runs_) {
         const Vec3 d = x - run.centre;
-        const double bound = std::sqrt(best.squared_distance) + run.reach;
-        if (&run != start && dot(d, d) < bound * bound) look_at(run);
+        const double bound = nearest_yet + run.reach;
+        if (&run == start || !(dot(d, d) < bound * bound)) continue;
+        look_at(run);
+        nearest_yet = std::sqrt(best.squared_distance);
     }
     return best;
 }

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "patency/base/pack.h"
 #include "patency/shape/network.h"
 #include "patency/shape/signed_distance.h"
 
@@ -26,10 +27,14 @@ private:
     struct Nearest {
         double squared_distance, radius;
     };
-    struct Run {   // some pieces in a row, and a sphere around them
-        std::size_t first, last;
+    static constexpr int run_length = 8;   // pieces; a compromise between spheres and pieces to look at
+    struct Run {   // some pieces in a row, side by side, and a sphere around them; the last of them again to fill it
+        using P = Pack<double, run_length>;
+        std::size_t first;
         Vec3 centre;
         double reach;
+        Vec<P> start, piece;
+        P square;   // of the piece's length
     };
     Nearest nearest(const Vec3& x) const;
 
