@@ -12,13 +12,13 @@ namespace patency {
 
 namespace {
 
-// Measured on one core: from 0.5 ms of a cell of the reference paper's bifurcation (49,000) to 1.1 ms of one of a real left tree
-// (226,000); the largest resident memory of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 1,330 MB with 226,000 (which
+// Measured on one core: 0.41 to 0.52 ms of a cell of the reference paper's bifurcation (226,000 to 49,000) and 0.58 ms of one of a real
+// left tree (226,000); the largest resident memory of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 1,330 MB with 226,000 (which
 // mixed forty steps; thirty take 72 MB less).
-constexpr double seconds_per_cell = 0.8e-3, bytes_per_cell = 5000, bytes_at_least = 120e6;
-// Of pipes with pressures or Windkessels behind them six iterations in a step and 15 us; of a bifurcation with an aortic pressure in
-// front and Windkessels behind 17 iterations and 60 us, on a machine that was shared by three.
-constexpr double seconds_per_cell_and_step = 30e-6;
+constexpr double seconds_per_cell = 0.5e-3, bytes_per_cell = 5000, bytes_at_least = 120e6;
+// Of pipes and a Y with pressures or Windkessels behind them 4 to 8 us, six iterations in a step; a bifurcation with an aortic pressure in
+// front and Windkessels behind takes 17.
+constexpr double seconds_per_cell_and_step = 10e-6;
 constexpr double shared = 0.8;   // of the work that a second thread takes half of
 
 /// The volume over the cube of the spacing, along the centrelines; each stretch counts once.
