@@ -402,7 +402,7 @@ int linear_steps(const Pipe& pipe) {
         balance.add_openings(x, y);
     };
     const CellOperator precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
-    return CellKrylov().solve(multiply, precondition, right, change, 60, 1e-2).steps;
+    return solve_by_krylov(multiply, precondition, right, change, 60, 1e-2).steps;
 }
 
 // Sums of entries alone are too stiff on coarser levels, and the more of them there are the more steps it would take. THEORY.md (18.13)
@@ -422,10 +422,7 @@ TEST(CellKrylov, solvesWhatItIsGiven) {
     CellVectors wanted(count), right(count), found;
     for (std::size_t i = 0; i < count; ++i) wanted[i] = CellVector{float(i), 1, -2, 0.5f * float(i)};
     multiply(wanted, right);
-    CellKrylov krylov;
-    CellVectors shorter(count / 2, CellVector{1, 2, 3, 4}), ignored;   // what is kept of one solution tells the next nothing
-    krylov.solve(multiply, divide, shorter, ignored, 3, 1e-6);
-    const KrylovResult result = krylov.solve(multiply, divide, right, found, 60, 1e-6);
+    const KrylovResult result = solve_by_krylov(multiply, divide, right, found, 60, 1e-6);
     EXPECT_LT(result.residual, 1e-6);
     for (std::size_t i = 0; i < count; ++i)
         for (int k = 0; k < 4; ++k) ASSERT_NEAR(found[i][k], wanted[i][k], 2e-3f);

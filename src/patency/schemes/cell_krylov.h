@@ -15,15 +15,9 @@ struct KrylovResult {
     int steps;
 };
 
-/// Keeps its vectors from one solution to the next: of many cells the system takes as long to hand out new memory as a cycle takes.
-class CellKrylov {
-public:
-    /// x = about A^-1 right, from zero, in at most `most` steps or until the residual is below tolerance. Sums are in double
-    /// and in fixed blocks: the same bits for any number of threads.
-    KrylovResult solve(const CellOperator& multiply, const CellOperator& precondition, const CellVectors& right, CellVectors& x, int most, double tolerance);
-
-private:
-    std::vector<CellVectors> basis_, search_;
-};
+/// x = about A^-1 right, from zero, in at most `most` steps or until the residual is below tolerance. Sums are in double
+/// and in fixed blocks: the same bits for any number of threads.
+KrylovResult solve_by_krylov(const CellOperator& multiply, const CellOperator& precondition, const CellVectors& right,
+                             CellVectors& x, int most, double tolerance);
 
 }   // namespace patency

@@ -119,7 +119,6 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
     CellMixing mixing(mixed_steps);
     FieldMean mean;   // once it is stalled and stands
     CellVectors right, change;
-    CellKrylov krylov;
     const auto precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
     const auto multiply = [&](const CellVectors& x, CellVectors& y) {
         matrix.multiply(x, y);
@@ -174,7 +173,7 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
             return solution;
         }
         balance.fill({courant, pressure_share(momentum)}, matrix, right);
-        const KrylovResult linear = krylov.solve(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
+        const KrylovResult linear = solve_by_krylov(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
         solution.history.push_back({volume, momentum, linear.residual, linear.steps, courant});
         solution.linear_steps += linear.steps;
         if (!(linear.residual < stagnant)) {
