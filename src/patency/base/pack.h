@@ -159,9 +159,11 @@ PATENCY_INLINE Quads<Pack<float, 16>> load_quads(const Quad<float>* base, const 
     return {P(low(lo01, lo23)), P(high(lo01, lo23)), P(low(hi01, hi23)), P(high(hi01, hi23))};
 }
 PATENCY_INLINE Quads<Pack<double, 8>> load_quads(const Quad<double>* base, const std::uint32_t* index) {
-    // Lanes k and k + 2 in one register, so that whole halves of registers, exchanged, bring the lanes back into order.
+    // Lanes k and k + 2 in one register, so that whole halves of registers, exchanged, bring the lanes back into order. The second
+    // half comes by a masked load: it needs no unit that exchanges lanes, and of those this loop has too few.
     const auto pair = [&](int k) {
-        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(&base[index[k]].a)), _mm256_load_pd(&base[index[k + 2]].a), 1);
+        const __m512d first = _mm512_castpd256_pd512(_mm256_load_pd(&base[index[k]].a));
+        return _mm512_mask_broadcast_f64x4(first, 0xf0, _mm256_load_pd(&base[index[k + 2]].a));
     };
     const __m512d z0 = pair(0), z1 = pair(1), z4 = pair(4), z5 = pair(5);
     const __m512d ac0 = _mm512_unpacklo_pd(z0, z1), bd0 = _mm512_unpackhi_pd(z0, z1);

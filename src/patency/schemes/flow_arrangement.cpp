@@ -179,7 +179,8 @@ template <class T>
 void Arrangement<T>::compute_corrections() {
     using P = Pack<double>;
     const std::size_t n = domain_.fluid.size();
-    blood_corrections_.reset(n), closures_.reset(n), laplacian_diagonal_.reset(n + 1), laplacian_mixed_.reset(n + 1);
+    blood_corrections_.reset(n), closures_.reset(n), radial_moments_.reset(n);
+    laplacian_diagonal_.reset(n + 1), laplacian_mixed_.reset(n + 1);
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += P::lanes) {
             const std::size_t count = std::min<std::size_t>(P::lanes, end - first);
@@ -206,6 +207,7 @@ template <class T>
 std::array<double, terms::moments> Arrangement<T>::correct_gradients(std::size_t i) {
     std::array<double, terms::moments> m;
     for (std::size_t s = 0; s < m.size(); ++s) m[s] = moments_[i][s];
+    radial_moments_[i] = {moments_[i][9], moments_[i][10], moments_[i][11]};
     const Mat3 own = inverse(second_moment(m));
     Vec3 mirror{};
     if (const std::uint32_t k = wall_of_[i]; k != no_wall) {

@@ -50,10 +50,10 @@ public:
     double unit() const { return scale_.unit; }
     const AlignedVector<Quad<T>>& geometry() const { return geometry_; }             ///< (x, distance to the wall)
     const AlignedVector<Quad<T>>& wall_geometry() const { return wall_geometry_; }   ///< (x, depth)
-    const Moments& moments(std::size_t i) const { return moments_[i]; }
     // What acoustic steps need, frozen over an advection step: each reads what it needs and nothing else, for memory is slow.
     const Sym<T>& blood_correction(std::size_t i) const { return blood_corrections_[i]; }   ///< over blood alone, per metre
     const Closure<T>& closure(std::size_t i) const { return closures_[i]; }
+    const Vec<T>& radial_moment(std::size_t i) const { return radial_moments_[i]; }   ///< sum w r d over blood
     /// The matrix of the Laplacian's weight, (xx, yy, zz, .) and (xy, xz, yz, .).                    THEORY.md (3.6)
     const AlignedVector<Quad<T>>& laplacian_diagonal() const { return laplacian_diagonal_; }
     const AlignedVector<Quad<T>>& laplacian_mixed() const { return laplacian_mixed_; }
@@ -105,6 +105,7 @@ private:
     std::vector<std::uint32_t> wall_of_;   // index into wall_moments_, per particle
     AlignedVector<Sym<T>> blood_corrections_;
     AlignedVector<Closure<T>> closures_;
+    AlignedVector<Vec<T>> radial_moments_;
     AlignedVector<Quad<T>> laplacian_diagonal_, laplacian_mixed_;
 };
 

@@ -188,8 +188,8 @@ private:
             first += mu * Vec3{friction[2], friction[3], friction[4]};
         }
         gradient = gradient * correct;
-        const auto& m = arrangement_.moments(i);
-        held_[i] = {T(unit * m[9]), T(unit * m[10]), T(unit * m[11]), sum[15]};
+        const Vec<T>& radial = arrangement_.radial_moment(i);
+        held_[i] = {T(unit * radial.x), T(unit * radial.y), T(unit * radial.z), sum[15]};
         if (fluid.opening[i] != 0) {   // natural outflow: nothing changes along the axis
             const Vec3& axis = end_of(domain_, i).normal;
             gradient = gradient - outer(gradient * axis, axis);
