@@ -80,6 +80,8 @@ void check(const DeckOptions& options) {
     if (config.has_vessel()) vessel = read_vessel(config);
     const double read_seconds = reading.wall();
     const Vessel* known = vessel ? &*vessel : nullptr;
+    std::optional<DeployPlan> deployment;   // before a word is said: a stent that does not fit is a mistake too
+    if (config.stent) deployment = plan_deploy(config, threads);
     FlowCost cost{};
     if (config.scheme() == deck::SchemeName::cells) {
         const CellPlan plan = plan_cells(config, threads, known);
@@ -91,13 +93,12 @@ void check(const DeckOptions& options) {
         cost = {plan.across_narrowest, plan.memory, plan.seconds, flow_disk(config, plan.fluid_particles, plan.wall_particles, known), threads};
     }
     print_cost(cost);
-    if (!config.stent) return;
-    const DeployPlan deployment = plan_deploy(config, threads);
-    print_deploy_plan(config, deployment, threads);
+    if (!deployment) return;
+    print_deploy_plan(config, *deployment, threads);
     // The flow after takes about what the flow before takes. The vessel is read once more for the stent's place, for the deployment, after
     // it and for each estimate, as long as it was just now.
-    fmt::print("  patency run          all stages: about {}, {} on the disk\n", readable_time(2 * cost.seconds + deployment.seconds + 5 * read_seconds),
-               readable_size(2 * cost.disk + deploy_disk(config, deployment, *vessel)));
+    fmt::print("  patency run          all stages: about {}, {} on the disk\n", readable_time(2 * cost.seconds + deployment->seconds + 5 * read_seconds),
+               readable_size(2 * cost.disk + deploy_disk(config, *deployment, *vessel)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "command_line.h"
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/stages/stent_of_case.h"
 
 namespace patency::app {
 
@@ -17,12 +18,22 @@ void DeckOptions::add_to(const Command& command) {
     command.add_option("--threads", threads, "how many threads; the deck's or one per core if absent").between(1, 1024);
 }
 
+namespace {
+
+/// Names that the schema does not know, before anything is built.
+const deck::Case& with_known_names(const deck::Case& config) {
+    if (config.stent) expect_known_names(*config.stent);
+    return config;
+}
+
+}  // namespace
+
 deck::Case DeckOptions::read() const {
     const std::vector<deck::NamedCase> runs = deck::read_runs(path, settings);
-    if (run.empty() && runs.size() == 1) return runs.front().resolved;
+    if (run.empty() && runs.size() == 1) return with_known_names(runs.front().resolved);
     std::vector<std::string> names;
     for (const deck::NamedCase& named : runs) {
-        if (named.name == run) return named.resolved;
+        if (named.name == run) return with_known_names(named.resolved);
         names.push_back(named.name);
     }
     throw UsageError(run.empty() ? fmt::format("the deck has several runs; choose one with --run: {}", join(names, ", ", " or "))

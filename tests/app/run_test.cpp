@@ -48,6 +48,24 @@ numerics: {spacing: "0.32 mm", duration: "1 s"}
     ScratchFolder folder_;
 };
 
+// A name is looked up before anything is built, and a deck with a wrong one is not called right.
+TEST_F(Run, AStentThatTheLibraryLacksIsAMistakeOfTheDeck) {
+    for (const std::string setting : {"stent.design=papper", "stent.alloy=tin"})
+        for (const std::string command : {"check", "run", "deploy"}) {
+            const std::string where = command == "check" ? "" : " -o " + out().string();
+            const Result result = patency(fmt::format("{} {}{} --set {}", command, deck().string(), where, setting));
+            EXPECT_EQ(result.exit_code, 3) << result.output;
+            EXPECT_NE(result.output.find(setting.substr(0, setting.find('=')) + ": "), std::string::npos) << result.output;
+            EXPECT_EQ(result.output.find("the deck is right"), std::string::npos) << result.output;
+            EXPECT_FALSE(fs::exists(out()));
+        }
+}
+TEST_F(Run, AStentThatIsTooLongIsToldBeforeTheDeckIsCalledRight) {
+    const Result result = patency(fmt::format("check {} --set 'stent.length=60 mm'", deck().string()));
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_EQ(result.output.find("the deck is right"), std::string::npos) << result.output;
+}
+
 TEST_F(Run, AStentOpensTheLesionAndStagesThatEndedAreKept) {
     const Result first = run("--stages before");
     ASSERT_EQ(first.exit_code, 0) << first.output;

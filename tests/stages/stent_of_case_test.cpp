@@ -20,12 +20,28 @@ TEST(StentOfCase, ADesignIsTheLibrarysWithTheDecksAlloy) {
     stent.alloy = "L605";
     EXPECT_EQ(make_stent_pattern(stent).alloy, "L605");
     stent.alloy = "tin";
-    EXPECT_THROW(make_stent_pattern(stent), GeometryError);
+    EXPECT_THROW(make_stent_pattern(stent), DeckError);
     stent = {};
     stent.surface = "a.stl";
     EXPECT_THROW(make_stent_pattern(stent), DeckError);
     stent.length = 10e-3;   // before the file is looked for
     EXPECT_THROW(make_stent(stent), DeckError);
+}
+
+TEST(StentOfCase, AMisspeltNameIsAMistakeOfTheDeck) {
+    deck::Stent stent;
+    stent.design = "open_cel";
+    try {
+        expect_known_names(stent);
+        FAIL() << "no error";
+    } catch (const DeckError& e) {
+        EXPECT_EQ(std::string(e.what()).find("stent.design: "), 0u) << e.what();
+        EXPECT_NE(std::string(e.what()).find("did you mean open_cell?"), std::string::npos) << e.what();
+    }
+    stent.design = "open_cell";
+    expect_known_names(stent);
+    stent.alloy = "tin";
+    EXPECT_THROW(expect_known_names(stent), DeckError);
 }
 
 // The library's design, key by key, makes the same struts.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/stent_of_case.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "patency/base/errors.h"
@@ -15,13 +17,35 @@ void expect_length_of_a_design(const deck::Stent& stent) {
     if (stent.length && !stent.design) throw DeckError("stent.length: is that of a design of the library; a pattern or a surface has its own");
 }
 
+/// What the library says of a name that it lacks is a mistake at the deck's key.
+template <class Find>
+decltype(auto) at_key(const char* key, const Find& find) {
+    try {
+        return find();
+    } catch (const GeometryError& unknown) {
+        throw DeckError(fmt::format("{}: {}", key, unknown.what()));
+    }
+}
+const StentDesign& design_named(const std::string& name) {
+    return at_key("stent.design", [&]() -> const StentDesign& { return find_stent(name); });
+}
+const Alloy& alloy_named(const std::string& name) {
+    return at_key("stent.alloy", [&]() -> const Alloy& { return find_alloy(name); });
+}
+
 }   // namespace
 
-StentPattern make_stent_pattern(const deck::Stent& stent) {
-    StentPattern pattern;
+void expect_known_names(const deck::Stent& stent) {
     expect_length_of_a_design(stent);
+    if (stent.design) design_named(*stent.design);
+    if (stent.alloy) alloy_named(*stent.alloy);
+}
+
+StentPattern make_stent_pattern(const deck::Stent& stent) {
+    expect_known_names(stent);
+    StentPattern pattern;
     if (stent.design) {
-        pattern = find_stent(*stent.design).pattern;
+        pattern = design_named(*stent.design).pattern;
         if (stent.length) pattern = with_length(pattern, *stent.length);
     } else if (stent.pattern) {
         const deck::StentPattern& p = *stent.pattern;
@@ -49,17 +73,16 @@ StentPattern make_stent_pattern(const deck::Stent& stent) {
         throw DeckError("stent: it is a surface and has no pattern");
     }
     if (stent.alloy) pattern.alloy = *stent.alloy;
-    find_alloy(pattern.alloy);
     return pattern;
 }
 
 std::string alloy_of(const deck::Stent& stent) {
     if (!stent.surface) return make_stent_pattern(stent).alloy;
-    return find_alloy(stent.alloy.value_or("316L")).name;
+    return alloy_named(stent.alloy.value_or("316L")).name;
 }
 
 MadeStent make_stent(const deck::Stent& stent) {
-    expect_length_of_a_design(stent);
+    expect_known_names(stent);
     if (!stent.surface) {
         StentPattern pattern = make_stent_pattern(stent);
         StentForm form = make_strut_curves(pattern);

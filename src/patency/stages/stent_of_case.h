@@ -10,8 +10,11 @@
 
 namespace patency {
 
+/// Throws DeckError for a design or an alloy that the library lacks, and for a length of what is no design.
+void expect_known_names(const deck::Stent& stent);
+
 /// The library's design or the deck's own pattern, with the deck's alloy; of its own pattern 316L if it names none. Throws
-/// DeckError if the stent is a surface, GeometryError for an unknown design or alloy.
+/// DeckError if the stent is a surface, and as expect_known_names.
 StentPattern make_stent_pattern(const deck::Stent& stent);
 
 /// What the stent is of: the deck's alloy, the design's, or 316L. Throws as make_stent_pattern.
