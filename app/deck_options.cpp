@@ -11,13 +11,6 @@
 
 namespace patency::app {
 
-void DeckOptions::add_to(const Command& command) {
-    command.add_option("case", path, "the deck (YAML)").required();
-    command.add_option("--set", settings, "change a key of the deck: key=value; may be repeated").repeated();
-    command.add_option("--run", run, "which of the deck's runs");
-    command.add_option("--threads", threads, "how many threads; the deck's or one per core if absent").between(1, 1024);
-}
-
 namespace {
 
 /// Names that the schema does not know, before anything is built.
@@ -27,6 +20,13 @@ const deck::Case& with_known_names(const deck::Case& config) {
 }
 
 }  // namespace
+
+void DeckOptions::add_to(const Command& command) {
+    command.add_option("case", path, "the deck (YAML)").required();
+    command.add_option("--set", settings, "change a key of the deck: key=value; may be repeated").repeated();
+    command.add_option("--run", run, "which of the deck's runs");
+    command.add_option("--threads", threads, "how many threads; the deck's or one per core if absent").between(1, 1024);
+}
 
 deck::Case DeckOptions::read() const {
     const std::vector<deck::NamedCase> runs = deck::read_runs(path, settings);

@@ -60,9 +60,10 @@ TEST_F(Run, AStentThatTheLibraryLacksIsAMistakeOfTheDeck) {
             EXPECT_FALSE(fs::exists(out()));
         }
 }
+
 TEST_F(Run, AStentThatIsTooLongIsToldBeforeTheDeckIsCalledRight) {
     const Result result = patency(fmt::format("check {} --set 'stent.length=60 mm'", deck().string()));
-    EXPECT_NE(result.exit_code, 0);
+    EXPECT_EQ(result.exit_code, 4) << result.output;
     EXPECT_EQ(result.output.find("the deck is right"), std::string::npos) << result.output;
 }
 

@@ -172,21 +172,32 @@ numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s", without_rest: fol
     EXPECT_EQ(text_of(whole.file("waveforms.csv")), text_of(out.file("waveforms.csv")));
 }
 
-// A slower one comes to rest, the sooner as its last steps are mixed. (In how many steps one of 3 m/s does is chance, 230 to 920 of
-// either kind as its speed differs by some percent.)
-TEST(CellScene, FindsTheRestOfAJetSoonerByMixedSteps) {
-    const auto count_steps = [](double mixes_below) {
-        std::size_t steps = 0;
-        for (const char* speed : {"0.4 m/s", "0.6 m/s", "0.8 m/s", "1 m/s"}) {
-            const deck::Case config = deck::parse_case(R"(version: 1
+deck::Case jet(const std::string& speed) {
+    return deck::parse_case(R"(version: 1
 case: {name: jet}
 geometry: {shape: {type: step, gap: "2 mm", length: "12 mm", step_height: "1 mm", step_at: "3 mm"}}
 blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
 openings:
-  inlet: {type: velocity, profile: parabola, velocity: "1 m/s"}
+  inlet: {type: velocity, profile: parabola, velocity: ")" + speed + R"("}
   outlet: {type: pressure, pressure: "0 Pa"}
 numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s"}
-)", "deck", {}, {std::string("openings.inlet.velocity=") + speed});
+)");
+}
+
+// A slower one is left to come to rest. In how many steps is chance at 3 m/s, 230 to 920 of either kind as its speed differs by some
+// percent: in as many as a run may take, here.
+TEST(CellScene, FindsTheRestOfAJet) {
+    const auto scene = make_solved_scene(jet("3 m/s"));
+    EXPECT_TRUE(scene->solution.is_converged);
+    EXPECT_LT(scene->solution.history.size(), 400u);
+}
+
+// Slower ones come to it the sooner as their last steps are mixed.
+TEST(CellScene, FindsTheRestOfSlowerJetsSoonerByMixedSteps) {
+    const auto count_steps = [](double mixes_below) {
+        std::size_t steps = 0;
+        for (const char* speed : {"0.4 m/s", "0.6 m/s", "0.8 m/s", "1 m/s"}) {
+            const deck::Case config = jet(speed);
             const Lumen lumen = make_cell_lumen(config);
             const auto scene = make_cell_scene(config, lumen, make_cell_points(lumen, config.numerics.spacing));
             CellSolverSettings settings;

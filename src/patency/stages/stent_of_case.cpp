@@ -19,33 +19,27 @@ void expect_length_of_a_design(const deck::Stent& stent) {
 
 /// What the library says of a name that it lacks is a mistake at the deck's key.
 template <class Find>
-decltype(auto) at_key(const char* key, const Find& find) {
+void expect_found(const char* key, const std::optional<std::string>& name, const Find& find) {
     try {
-        return find();
+        if (name) find(*name);
     } catch (const GeometryError& unknown) {
         throw DeckError(fmt::format("{}: {}", key, unknown.what()));
     }
-}
-const StentDesign& design_named(const std::string& name) {
-    return at_key("stent.design", [&]() -> const StentDesign& { return find_stent(name); });
-}
-const Alloy& alloy_named(const std::string& name) {
-    return at_key("stent.alloy", [&]() -> const Alloy& { return find_alloy(name); });
 }
 
 }   // namespace
 
 void expect_known_names(const deck::Stent& stent) {
     expect_length_of_a_design(stent);
-    if (stent.design) design_named(*stent.design);
-    if (stent.alloy) alloy_named(*stent.alloy);
+    expect_found("stent.design", stent.design, find_stent);
+    expect_found("stent.alloy", stent.alloy, find_alloy);
 }
 
 StentPattern make_stent_pattern(const deck::Stent& stent) {
     expect_known_names(stent);
     StentPattern pattern;
     if (stent.design) {
-        pattern = design_named(*stent.design).pattern;
+        pattern = find_stent(*stent.design).pattern;
         if (stent.length) pattern = with_length(pattern, *stent.length);
     } else if (stent.pattern) {
         const deck::StentPattern& p = *stent.pattern;
@@ -78,22 +72,23 @@ StentPattern make_stent_pattern(const deck::Stent& stent) {
 
 std::string alloy_of(const deck::Stent& stent) {
     if (!stent.surface) return make_stent_pattern(stent).alloy;
-    return alloy_named(stent.alloy.value_or("316L")).name;
+    expect_known_names(stent);
+    return stent.alloy.value_or("316L");
 }
 
 MadeStent make_stent(const deck::Stent& stent) {
-    expect_known_names(stent);
     if (!stent.surface) {
         StentPattern pattern = make_stent_pattern(stent);
         StentForm form = make_strut_curves(pattern);
         return {std::move(pattern), std::move(form)};
     }
+    const std::string alloy = alloy_of(stent);   // before the file is looked for
     ImportedStent metal = recognise_stent(read_surface(*stent.surface, stent.unit.value_or("")));
     StentPattern measured;
     measured.length = metal.length;
     measured.diameter = measured.nominal_diameter = metal.diameter;
     measured.strut_thickness = metal.strut_thickness, measured.strut_width = least_strut(metal);
-    measured.alloy = alloy_of(stent);
+    measured.alloy = alloy;
     return {std::move(measured), std::move(metal)};
 }
 
