@@ -112,24 +112,42 @@ struct Measured {
     double per_s() const { return particle_steps / wall_s; }
 };
 
-/// Two steps to fill caches and arrays, then `steps` advection steps under the clock.
-Measured measure(Scene& scene, int steps) {
-    const auto step = [&] {
-        const FlowStep done = scene.scheme->step(scene.time, 1);
-        scene.time += done.dt;
-        return done.acoustic_steps;
-    };
-    step(), step();
-    Measured result{.particles = std::int64_t(scene.fluid.size())};
+/// A pipe that steps when it is its turn.
+struct Runner {
+    std::unique_ptr<Scene> scene;
+    int threads, steps;   // in all rounds together
+    Measured measured{};
+};
+
+std::int64_t step(Scene& scene) {
+    const FlowStep done = scene.scheme->step(scene.time, 1);
+    scene.time += done.dt;
+    return done.acoustic_steps;
+}
+
+void advance(Runner& runner, int steps) {
+    omp_set_num_threads(runner.threads);
     const double cpu = cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
     for (int k = 0; k < steps; ++k) {
-        const double count = double(scene.fluid.size());
-        result.particle_steps += count * step();
+        const double count = double(runner.scene->fluid.size());
+        runner.measured.particle_steps += count * double(step(*runner.scene));
     }
-    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.cpu_s = cpu_seconds() - cpu;
-    return result;
+    runner.measured.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    runner.measured.cpu_s += cpu_seconds() - cpu;
+}
+
+/// Both under the clock for all their steps, in rounds by turns: a machine that others slow down for a while slows both.
+/// Two steps before fill caches and arrays.
+void measure_by_turns(Runner& a, Runner& b) {
+    for (Runner* runner : {&a, &b}) {
+        omp_set_num_threads(runner->threads);
+        step(*runner->scene), step(*runner->scene);
+        runner->measured.particles = std::int64_t(runner->scene->fluid.size());
+    }
+    const int rounds = std::min({a.steps, b.steps, 16});
+    for (int k = 0; k < rounds; ++k)
+        for (Runner* runner : {&a, &b}) advance(*runner, runner->steps * (k + 1) / rounds - runner->steps * k / rounds);
 }
 
 double answer_error(const Scene& a, const Scene& b) {
@@ -144,47 +162,39 @@ double answer_error(const Scene& a, const Scene& b) {
     return std::max(velocity / speed, position / extent);
 }
 
-int steps_for(double particles, const BenchRequest& request) {   // about ten million particle-steps, six acoustic in each
-    return std::max(2, int(std::lround(request.effort * 1e7 / (6 * particles))));
+/// About ten million particle-steps, six acoustic in each advection step.
+Runner make_runner(const Setup& setup, int threads, const BenchRequest& request) {
+    auto scene = make_pipe(setup);
+    const int steps = std::max(2, int(std::lround(request.effort * 1e7 / (6 * double(scene->fluid.size())))));
+    return {std::move(scene), threads, steps};
 }
 
 constexpr const char* rate_unit = "particle-steps per CPU-second";
 
 BenchResult bench_against_reference(const std::string& name, Setup setup, const BenchRequest& request) {
-    omp_set_num_threads(request.threads);
-    const auto packed = make_pipe(setup);
+    Runner packed = make_runner(setup, request.threads, request);
     setup.loop = LoopKind::reference;
-    const auto slow = make_pipe(setup);
-    const int steps = steps_for(double(packed->fluid.size()), request);
-    const Measured fast = measure(*packed, steps), reference = measure(*slow, steps);
+    Runner slow = make_runner(setup, request.threads, request);
+    measure_by_turns(packed, slow);
+    const Measured &fast = packed.measured, &reference = slow.measured;
     return {name, fast.particles, request.threads, fast.per_cpu_s(), rate_unit, reference.per_cpu_s(),
-            fast.per_cpu_s() / reference.per_cpu_s(), answer_error(*packed, *slow)};
+            fast.per_cpu_s() / reference.per_cpu_s(), answer_error(*packed.scene, *slow.scene)};
 }
 
 BenchResult bench_two_threads(const std::string& name, const Setup& setup, const BenchRequest& request) {
-    omp_set_num_threads(1);
-    const auto alone = make_pipe(setup);
-    const int steps = steps_for(double(alone->fluid.size()), request);
-    const Measured one = measure(*alone, steps);
-    omp_set_num_threads(2);
-    const auto together = make_pipe(setup);
-    const Measured two = measure(*together, steps);
+    Runner alone = make_runner(setup, 1, request), together = make_runner(setup, 2, request);
+    measure_by_turns(alone, together);
+    const Measured &one = alone.measured, &two = together.measured;
     return {name, two.particles, 2, two.per_s(), "particle-steps per second", one.per_s(), two.per_s() / one.per_s(),
-            answer_error(*together, *alone)};
+            answer_error(*together.scene, *alone.scene)};
 }
 
 /// Of CPU time per particle-step, large over small: 1.1 is 10 % more.
 BenchResult bench_growth(const std::string& name, const Setup& large, const Setup& small, const BenchRequest& request) {
-    omp_set_num_threads(request.threads);
-    Measured of_small, of_large;
-    {
-        const auto scene = make_pipe(small);
-        of_small = measure(*scene, steps_for(double(scene->fluid.size()), request));
-    }
-    const auto scene = make_pipe(large);
-    of_large = measure(*scene, steps_for(double(scene->fluid.size()), request));
-    const double cost = 1e9 / of_large.per_cpu_s(), before = 1e9 / of_small.per_cpu_s();
-    return {name, of_large.particles, request.threads, cost, "CPU-ns per particle-step", before, cost / before, 0};
+    Runner of_small = make_runner(small, request.threads, request), of_large = make_runner(large, request.threads, request);
+    measure_by_turns(of_small, of_large);
+    const double cost = 1e9 / of_large.measured.per_cpu_s(), before = 1e9 / of_small.measured.per_cpu_s();
+    return {name, of_large.measured.particles, request.threads, cost, "CPU-ns per particle-step", before, cost / before, 0};
 }
 
 }  // namespace
