@@ -189,6 +189,41 @@ TEST(Flow, an_outlet_that_starves_is_reported) {
     EXPECT_THROW(advance(*scene, {.until = 0.01}), DivergedError);
 }
 
+/// How far the pressure at the inlet swings over the last 10 of 40 ms after a start without a pressure drop [Pa].
+double late_swing(const std::string& numerics) {
+    ChannelDeck deck;
+    deck.initial = "{velocity: parabola, speed: \"0.11 m/s\", pressure: zero}";
+    deck.duration = "40 ms";
+    deck.numerics = numerics;
+    const auto scene = built(deck);
+    double low = INFINITY, high = -INFINITY;
+    FlowRun run{.until = 0.04};
+    run.observe = [&](const Scene& now, const FlowStep&) {
+        if (now.time < 0.03) return;
+        low = std::min(low, now.ends[0].mean_pressure), high = std::max(high, now.ends[0].mean_pressure);
+    };
+    advance(*scene, run);
+    EXPECT_NEAR(scene->ends[0].flow, -0.11e-3, 0.01 * 0.11e-3);   // what the deck imposes, per metre of depth
+    return high - low;
+}
+
+TEST(Flow, sound_leaves_a_run_that_waits_for_rest) {
+    EXPECT_LT(late_swing("convergence: {tolerance_percent: 1e-6}"), 0.25 * late_swing(""));
+}
+
+TEST(Build, an_end_lets_sound_out_of_a_steady_flow_alone) {
+    const auto admittance = [](const ChannelDeck& deck) { return built(deck)->ends[0].absorber.admittance; };
+    ChannelDeck deck;
+    EXPECT_EQ(admittance(deck), 0);   // nothing waits for rest: the times of the deck are those that are wanted
+    deck.numerics = "convergence: {tolerance_percent: 1}";
+    const auto scene = built(deck);
+    EXPECT_DOUBLE_EQ(scene->ends[0].absorber.admittance, scene->ends[0].area / (1000 * scene->material.sound_speed));
+    EXPECT_EQ(scene->ends[1].absorber.admittance, 0);   // a pressure is imposed there
+    EXPECT_EQ(scene->ends[0].absorber.mean, scene->ends[0].mean_pressure);
+    deck.inlet = "{type: velocity, profile: parabola, peak_velocity: \"0.165 m/s\", ramp: \"5 ms\"}";
+    EXPECT_EQ(admittance(deck), 0);
+}
+
 TEST(Build, the_papers_scheme_runs_the_same_deck) {
     ChannelDeck deck;
     deck.numerics = "scheme: paper";

@@ -119,7 +119,7 @@ double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
 
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share) {
     if (end.imposed_flow) {
-        end.flow = end.imposed_flow(t);
+        end.flow = end.share(t) * end.imposed_flow(t);
         return;
     }
     const SectionShape section{end.centre, end.normal, end.area, end.mean_square};

@@ -30,15 +30,17 @@ void impose_pressure(const FlowDomain& domain, const FluidMaterial& material, Al
 template <class T>
 void impose_velocity(const FlowDomain& domain, double time, AlignedVector<Quad<T>>& records) {
     FluidParticles& fluid = domain.fluid;
-    for (OpenEnd& end : domain.ends)
+    for (OpenEnd& end : domain.ends) {
+        const double share = end.share(time);
         for (const auto& m : end.buffer) {
             Vec3& v = fluid.velocity[m.index];
             if (end.kind == OpenEnd::Kind::velocity)
-                v = end.velocity(fluid.position[m.index], time);
+                v = share * end.velocity(fluid.position[m.index], time);
             else if (end.undisturbed || dot(v, end.normal) < 0)
                 v = dot(v, end.normal) * end.normal;
             records[m.index] = vector_record(v, records[m.index].d);
         }
+    }
 }
 
 template void impose_pressure<float>(const FlowDomain&, const FluidMaterial&, AlignedVector<Quad<float>>&);

@@ -180,6 +180,25 @@ void place_particles(Scene& scene) {
     }
 }
 
+// In times that sound needs through the vessel: its slowest swing (a quarter wave) is let out, a drift of the pressure is not.
+constexpr double sound_memory = 2;
+// In spacings: the pressure of an end is that of a few layers within it.
+constexpr double sound_delay = 8;
+
+/// A run that waits for its flow to settle need not wait for sound between its ends.
+void absorb_sound(Scene& scene) {
+    const deck::Case& config = scene.config;
+    if (config.about.mode != deck::Mode::steady || !config.numerics.convergence) return;
+    const double c = scene.material.sound_speed, length = norm(scene.lumen.bounds.high - scene.lumen.bounds.low);
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) {
+        const EndLaw& law = scene.laws[k];
+        if (!law.prescribes_flow() || !law.signal.waveform.is_constant() || law.signal.ramp > 0 || law.signal(0) == 0) continue;
+        scene.ends[k].absorber = {.admittance = scene.ends[k].area / (scene.material.density * c),
+                                  .memory = sound_memory * length / c,
+                                  .delay = sound_delay * scene.numerics.spacing / c};
+    }
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known) {
@@ -200,6 +219,7 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
     const Expected expected = expect_flow(*scene);
     scene->numerics.reference_speed = expected.speed;
     scene->material.sound_speed = choose_sound_speed(config, scene->lumen, expected, scene->material);
+    absorb_sound(*scene);
     scene->frame = make_frame(*scene);
     return scene;
 }

@@ -243,6 +243,7 @@ double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time,
     const double level = reference == deck::PressureReference::moving ? moving_level(laws, time, ahead) : 0;
     for (std::size_t k = 0; k < laws.size(); ++k) {
         EndLaw& law = laws[k];
+        if (ends[k].absorber.admittance > 0) ends[k].absorber.hear(ends[k].mean_pressure + level, dt);
         if (law.prescribes_flow()) continue;
         const double flow = ends[k].flow;
         if (law.outlet && law.is_started && time > law.known_until)
