@@ -351,6 +351,17 @@ TEST(Hostile, ManyMistakesEndSomewhere) {
     EXPECT_TRUE(mistakes_in(deck).ends_with("1000 or more mistakes; nothing was run."));
 }
 
+TEST(Mistakes, AStartFromCellsNeedsAFlowThatCellsCanSolve) {
+    EXPECT_EQ(mistakes_in(pipe_and("initial: {velocity: cells}\n")),
+              only("18:21: initial.velocity: cells needs a surface or a network, walls at rest and a steady flow; start from the estimate or from rest"));
+    std::string vessel = pipe_deck;
+    vessel.replace(vessel.find("shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}"), 54, "network: tube.json");
+    vessel.replace(vessel.find("duration: \"1 s\""), 15, "duration: \"1 s\"\n  scheme: sph");
+    EXPECT_EQ(mistakes_in(vessel + "initial: {velocity: cells, pressure: cells}\n"), "accepted");
+    for (const char* hindrance : {"body_force: [\"1 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\n", "wall: {velocity: {all: [\"1 m/s\", \"0 m/s\", \"0 m/s\"]}}\n"})
+        EXPECT_NE(mistakes_in(vessel + hindrance + "initial: {pressure: cells}\n").find("initial.pressure: cells needs"), std::string::npos) << hindrance;
+}
+
 TEST(Hostile, LargeFile) {
     const auto path = std::filesystem::path(testing::TempDir()) / "patency_large_deck.yaml";
     std::ofstream(path) << std::string(3 << 20, '#');

@@ -50,6 +50,28 @@ TEST(CellScene, flowsAsTheDeckSays) {
     EXPECT_NEAR(double(summary["largest_speed_m_per_s"]) / (2 * speed), 1, 0.03);
 }
 
+// What is read between ten cells across carries what flows: tangents of a profile alone would carry 4 % more.
+TEST(CellScene, FieldsBetweenCellsCarryTheFlow) {
+    const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: pressure, pressure: "0 Pa"})"));
+    const Opening &first = scene->lumen.openings[0], &last = scene->lumen.openings[1];
+    const Vec3 middle = 0.5 * (first.centre + last.centre), along = last.normal;
+    const Vec3 up = cross(along, Vec3{0, 0, 1}) / norm(cross(along, Vec3{0, 0, 1})), aside = cross(along, up);
+    constexpr int rings = 40, spokes = 24;
+    std::vector<Vec3> places;
+    std::vector<double> areas;
+    for (int k = 0; k < rings; ++k)
+        for (int a = 0; a < spokes; ++a) {
+            const double r = (k + 0.5) / rings * radius, angle = 2 * std::numbers::pi * a / spokes;
+            places.push_back(middle + r * std::cos(angle) * up + r * std::sin(angle) * aside);
+            areas.push_back(2 * std::numbers::pi * r * radius / rings / spokes);
+        }
+    const CellFields fields = scene->balance->fields_at(places);
+    double carried = 0, pressure = 0;
+    for (std::size_t n = 0; n < places.size(); ++n) carried += areas[n] * dot(fields.velocity[n], along), pressure += areas[n] * fields.pressure[n];
+    EXPECT_NEAR(carried / flow, 1, 0.01);
+    EXPECT_NEAR(pressure / (std::numbers::pi * radius * radius) / (4 * mu * speed * length / (radius * radius)), 1, 0.02);   // half of the drop
+}
+
 TEST(CellScene, SaysWhatItLooksLikeWhereItDiverged) {
     const auto spoil = [](const CellScene& now) {
         CellFields fields = now.balance->fields();

@@ -30,7 +30,7 @@ struct OpenEnd {
     std::function<Vec3(const Vec3& x, double t)> velocity;
     /// And the flow that this carries out of the domain [m^3/s]; if empty, the particles' is taken for it.
     std::function<double(double t)> imposed_flow;
-    SoundAbsorber absorber{};   ///< of a constant flow: what it lets out is added, in the imposed velocity's profile
+    SoundAbsorber absorber{};   ///< what it lets out is added to an imposed flow, in the imposed velocity's profile
     /// Pressure end: what is imposed at the plane, above the reference pressure [Pa].
     double pressure = 0;
     /// How much more is wanted per flow out of the domain [Pa s/m^3]: the response of an outlet model over the step.
@@ -45,7 +45,7 @@ struct OpenEnd {
     double crossed_volume = 0;
 
     /// What of the imposed velocity holds at time t: more or less of it than one while sound goes out.
-    double share(double t) const { return absorber.flow == 0 ? 1 : 1 + absorber.flow / imposed_flow(t); }
+    double share(double t) const { return absorber.let_out == 0 ? 1 : 1 + absorber.let_out / imposed_flow(t); }
     /// Distance beyond the plane [m].
     double axial(const Vec3& x) const { return dot(x - centre, normal); }
     bool in_reach(const Vec3& x) const {

@@ -47,11 +47,11 @@ inline Words words(VelocityProfile) { return {"plug", "parabola", "womersley", "
 enum class BedState { hyperaemic, resting };
 inline Words words(BedState) { return {"hyperaemic", "resting"}; }
 
-enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley, estimate };
-inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley", "estimate"}; }
+enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley, estimate, cells };
+inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley", "estimate", "cells"}; }
 
-enum class InitialPressure { zero, linear, estimate };
-inline Words words(InitialPressure) { return {"zero", "linear", "estimate"}; }
+enum class InitialPressure { zero, linear, estimate, cells };
+inline Words words(InitialPressure) { return {"zero", "linear", "estimate", "cells"}; }
 
 enum class SchemeName { sph, paper, cells };
 inline Words words(SchemeName) { return {"sph", "paper", "cells"}; }
@@ -267,9 +267,9 @@ struct Stent {   // exactly one of design, pattern, surface
 };
 
 struct Initial {
-    std::optional<InitialVelocity> velocity;   ///< absent: the estimate of a surface or network, else rest
+    std::optional<InitialVelocity> velocity;   ///< absent: Case::initial_velocity() chooses
     std::optional<double> speed;               ///< m/s: mean (plug, parabola) or amplitude (taylor_green)
-    std::optional<InitialPressure> pressure;   ///< absent: the estimate of a surface or network, else zero
+    std::optional<InitialPressure> pressure;   ///< absent: Case::initial_pressure() chooses
     bool operator==(const Initial&) const = default;
 };
 
@@ -359,12 +359,11 @@ struct Case {
     bool has_vessel() const { return geometry.surface || geometry.network; }
     /// The deck's word; else cells where a steady or periodic flow passes between walls at rest in a vessel.
     SchemeName scheme() const;
-    InitialVelocity initial_velocity() const {
-        return initial.velocity.value_or(has_vessel() ? InitialVelocity::estimate : InitialVelocity::rest);
-    }
-    InitialPressure initial_pressure() const {
-        return initial.pressure.value_or(has_vessel() ? InitialPressure::estimate : InitialPressure::zero);
-    }
+    /// Whether walls, forces and openings are such that the flow can be solved on cells.
+    bool fits_cells() const;
+    /// The deck's word; else that of moving particles in a vessel from the steady flow on cells, or from the estimate; of shapes rest.
+    InitialVelocity initial_velocity() const;
+    InitialPressure initial_pressure() const;
 };
 
 }  // namespace patency::deck

@@ -289,6 +289,10 @@ private:
         const std::string needs_vessel = "estimate needs a surface or a network; shapes have no centrelines";
         expect(case_.initial_velocity() != InitialVelocity::estimate || case_.has_vessel(), "initial.velocity", needs_vessel, {"geometry"});
         expect(case_.initial_pressure() != InitialPressure::estimate || case_.has_vessel(), "initial.pressure", needs_vessel, {"geometry"});
+        const bool can_be_solved = case_.has_vessel() && case_.about.mode == Mode::steady && case_.fits_cells();
+        const std::string needs_cells = "cells needs a surface or a network, walls at rest and a steady flow; start from the estimate or from rest";
+        expect(case_.initial_velocity() != InitialVelocity::cells || can_be_solved, "initial.velocity", needs_cells, {"geometry", "case.mode"});
+        expect(case_.initial_pressure() != InitialPressure::cells || can_be_solved, "initial.pressure", needs_cells, {"geometry", "case.mode"});
         if (case_.initial_pressure() == InitialPressure::linear)
             expect(!case_.openings.empty(), "initial.pressure", "linear needs openings with pressures", {"openings"});
     }

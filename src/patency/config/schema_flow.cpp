@@ -176,11 +176,11 @@ const Table& table_of<Bed>() {
 template <>
 const Table& table_of<Initial>() {
     static const Table table = make_table<Initial>("The blood at the start.", {
-        row(&Initial::velocity, {.key = "velocity", .help = "the velocity field; that of the estimate if absent, of shapes rest", .example = "estimate"}),
+        row(&Initial::velocity, {.key = "velocity", .help = "the velocity field; absent: that of a steady flow on cells if one is waited for in a vessel, else of the estimate, in shapes rest", .example = "estimate"}),
         row(&Initial::speed, {.key = "speed", .help = "the mean velocity; taylor_green: the amplitude", .unit = "m/s",
                               .range = between(-largest_speed, largest_speed),
                               .need = where("velocity", {"plug", "parabola", "taylor_green"})}),
-        row(&Initial::pressure, {.key = "pressure", .help = "zero, linear between the openings' pressures, or that of the estimate", .example = "estimate"}),
+        row(&Initial::pressure, {.key = "pressure", .help = "zero, linear between the openings' pressures, that of the estimate or of the flow on cells", .example = "estimate"}),
     });
     return table;
 }

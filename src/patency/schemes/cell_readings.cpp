@@ -50,7 +50,8 @@ std::vector<double> CellBalance::patch_pressure() const {
 
 CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
     // A mean of what the cells around extrapolate: where one cell's word stopped and the next one's began, a finer mesh would
-    // see a jump of the pressure, and blow.
+    // see a jump of the pressure, and blow. Of a cell's own slope and the mean of all each counts half, which is exact for a quadratic
+    // field: tangents alone lie above a profile everywhere, and eight cells across a pipe would carry 5 % too much.
     constexpr double widths = 1.5;
     const PointTree tree(mesh_.point);
     CellFields fields{std::vector<double>(places.size()), std::vector<Vec3>(places.size())};
@@ -67,16 +68,19 @@ CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
         tree.find(places[n], reach, found);
         std::sort(found.begin(), found.end());
         double sum = 0, pressure = 0;
-        Vec3 velocity{};
+        Vec3 velocity{}, lever{}, slope{};
+        Mat3 gradient{};
         for (const std::uint32_t i : found) {
             const double q = distance(i) / reach;
             if (q >= 1) continue;
             const double weight = (1 - q) * (1 - q) * (1 - q) * (1 - q) * (1 + 4 * q);
             const Vec3 d = places[n] - mesh_.point[i];
-            sum += weight, pressure += weight * state_[i].p_at(d), velocity += weight * state_[i].u_at(d);
+            sum += weight, lever += weight * d;
+            pressure += weight * state_[i].p_at(0.5 * d), slope += weight * state_[i].grad_p;
+            velocity += weight * state_[i].u_at(0.5 * d), gradient += weight * state_[i].grad_u;
         }
-        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ * pressure / sum;
-        fields.velocity[n] = speed_ / sum * velocity;
+        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ / sum * (pressure + 0.5 / sum * dot(slope, lever));
+        fields.velocity[n] = speed_ / sum * (velocity + 0.5 / sum * (gradient * lever));
     });
     return fields;
 }

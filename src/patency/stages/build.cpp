@@ -180,8 +180,10 @@ void place_particles(Scene& scene) {
     }
 }
 
-// In times that sound needs through the vessel: its slowest swing (a quarter wave) is let out, a drift of the pressure is not.
-constexpr double sound_memory = 2;
+// In times that sound needs through the vessel. The slowest swing is let out: between ends that impose flow and pressure a quarter
+// of a wave, between two pressures a half. A longer memory would let more of it out; but at a pressure it delays the flow's own way
+// to rest, like so much more vessel.                                                                  THEORY.md (8.12), (8.13)
+constexpr double memory_at_flow = 2, memory_at_pressure = 0.5;
 // In spacings: the pressure of an end is that of a few layers within it.
 constexpr double sound_delay = 8;
 
@@ -189,12 +191,13 @@ constexpr double sound_delay = 8;
 void absorb_sound(Scene& scene) {
     const deck::Case& config = scene.config;
     if (config.about.mode != deck::Mode::steady || !config.numerics.convergence) return;
-    const double c = scene.material.sound_speed, length = norm(scene.lumen.bounds.high - scene.lumen.bounds.low);
+    const double c = scene.material.sound_speed, crossing = norm(scene.lumen.bounds.high - scene.lumen.bounds.low) / c;
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         const EndLaw& law = scene.laws[k];
-        if (!law.prescribes_flow() || !law.signal.waveform.is_constant() || law.signal.ramp > 0 || law.signal(0) == 0) continue;
-        scene.ends[k].absorber = {.admittance = scene.ends[k].area / (scene.material.density * c),
-                                  .memory = sound_memory * length / c,
+        const bool is_constant = law.outlet ? !std::holds_alternative<Coronary>(*law.outlet) : law.signal.waveform.is_constant() && law.signal.ramp == 0;
+        if (!is_constant || (law.prescribes_flow() && law.signal(0) == 0)) continue;
+        scene.ends[k].absorber = {.impedance = scene.material.density * c / scene.ends[k].area,
+                                  .memory = (law.prescribes_flow() ? memory_at_flow : memory_at_pressure) * crossing,
                                   .delay = sound_delay * scene.numerics.spacing / c};
     }
 }
@@ -215,7 +218,8 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
     scene->material = make_material(config.blood);
     scene->numerics = make_numerics(config, scene->lumen);
     make_ends(*scene);
-    if (scene->estimate && config.initial_pressure() == deck::InitialPressure::estimate) fill_compliances(*scene);
+    const auto start = config.initial_pressure();
+    if (scene->estimate && (start == deck::InitialPressure::estimate || start == deck::InitialPressure::cells)) fill_compliances(*scene);
     const Expected expected = expect_flow(*scene);
     scene->numerics.reference_speed = expected.speed;
     scene->material.sound_speed = choose_sound_speed(config, scene->lumen, expected, scene->material);

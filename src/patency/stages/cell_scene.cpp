@@ -140,9 +140,9 @@ void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSet
 
 std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
                                              const std::function<bool(const CellScene&)>& watch,
-                                             const std::function<std::string(const CellScene&)>& describe_remains) {
-    std::shared_ptr<const Vessel> vessel;
-    if (config.has_vessel()) vessel = std::make_shared<const Vessel>(read_vessel(config));
+                                             const std::function<std::string(const CellScene&)>& describe_remains,
+                                             std::shared_ptr<const Vessel> vessel) {
+    if (!vessel && config.has_vessel()) vessel = std::make_shared<const Vessel>(read_vessel(config));
     const Lumen lumen = make_cell_lumen(config, vessel.get());
     const deck::Numerics& numerics = config.numerics;
     std::optional<SpacingField> field;

@@ -55,8 +55,9 @@ void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSet
 
 /// The scene of a deck with its flow: a coarse one first, which costs little and is a good start. `watch` is called with
 /// every scene before and after every step of its solution; true ends the run. `describe_remains`, of a scene whose flow diverged, is
-/// added to the DivergedError.
+/// added to the DivergedError. vessel: the deck's, if it is known.
 std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config, const std::function<bool(const CellScene&)>& watch = {},
-                                             const std::function<std::string(const CellScene&)>& describe_remains = {});
+                                             const std::function<std::string(const CellScene&)>& describe_remains = {},
+                                             std::shared_ptr<const Vessel> vessel = {});
 
 }   // namespace patency

@@ -243,17 +243,25 @@ double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time,
     const double level = reference == deck::PressureReference::moving ? moving_level(laws, time, ahead) : 0;
     for (std::size_t k = 0; k < laws.size(); ++k) {
         EndLaw& law = laws[k];
-        if (ends[k].absorber.admittance > 0) ends[k].absorber.hear(ends[k].mean_pressure + level, dt);
-        if (law.prescribes_flow()) continue;
+        SoundAbsorber& absorber = ends[k].absorber;
+        if (law.prescribes_flow()) {
+            if (absorber.is_there()) absorber.hear(ends[k].mean_pressure + level, dt);
+            continue;
+        }
         const double flow = ends[k].flow;
         if (law.outlet && law.is_started && time > law.known_until)
             law.state = advanced(*law.outlet, law.state, {law.known_until, time - law.known_until}, law.known_flow, flow);
+        if (!law.is_started) absorber.mean = flow;
         law.known_until = time;
         law.known_flow = flow;
         law.is_started = true;
         const OutletResponse wanted = response_of(law, time, ahead);
         ends[k].pressure = wanted.p0 - level;
         ends[k].resistance = wanted.dp_dq;
+        if (!absorber.is_there()) continue;
+        absorber.follow(flow, dt);
+        ends[k].pressure -= absorber.impedance * absorber.mean;
+        ends[k].resistance += absorber.impedance;
     }
     return level;
 }

@@ -40,6 +40,18 @@ void write_window(CheckpointWriter& writer, const FlowWindow::State& state) {
     writer.write("window/is_settled", std::int64_t(state.is_settled));
 }
 
+void write_means(CheckpointWriter& writer, const std::string& name, const VesselRecorder::State& means) {
+    writer.write(name + "/flows", means.flows);
+    writer.write(name + "/shear", means.shear);
+    writer.write(name + "/pressure", means.pressure);
+    writer.write(name + "/cut", means.cut);
+}
+
+VesselRecorder::State read_means(const CheckpointReader& reader, const std::string& name) {
+    const auto numbers = [&](const char* what) { return reader.read<std::vector<double>>(name + what); };
+    return {numbers("/flows"), numbers("/shear"), numbers("/pressure"), numbers("/cut")};
+}
+
 }  // namespace
 
 CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_hash) {
@@ -84,11 +96,9 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
     write_mark(writer, "recorder/row", state.row_mark);
     write_window(writer, window.state());
     if (vessel) {
-        const VesselRecorder::State means = vessel->state();
-        writer.write("vessel/flows", means.flows);
-        writer.write("vessel/shear", means.shear);
-        writer.write("vessel/pressure", means.pressure);
-        writer.write("vessel/cut", means.cut);
+        write_means(writer, "vessel", vessel->state());
+        writer.write("vessel/blocks", std::int64_t(vessel->finished().size()));
+        for (std::size_t k = 0; k < vessel->finished().size(); ++k) write_means(writer, "vessel/block_" + std::to_string(k), vessel->finished()[k]);
     }
     writer.finish();
 }
@@ -114,8 +124,10 @@ void read_recorder(const CheckpointReader& checkpoint, FlowRecorder& recorder) {
 }
 
 void read_vessel_recorder(const CheckpointReader& checkpoint, VesselRecorder& vessel) {
-    const auto numbers = [&](const char* name) { return checkpoint.read<std::vector<double>>(name); };
-    vessel.restore({numbers("vessel/flows"), numbers("vessel/shear"), numbers("vessel/pressure"), numbers("vessel/cut")});
+    std::vector<VesselRecorder::State> finished;
+    for (std::int64_t k = 0; k < checkpoint.read<std::int64_t>("vessel/blocks"); ++k)
+        finished.push_back(read_means(checkpoint, "vessel/block_" + std::to_string(k)));
+    vessel.restore(read_means(checkpoint, "vessel"), std::move(finished));
 }
 
 void read_window(const CheckpointReader& checkpoint, FlowWindow& window) {

@@ -9,15 +9,27 @@ namespace patency {
 namespace {
 
 // Windows of a steady flow, per time that the blood needs to pass the lumen: longer than sound needs to swing to and fro, shorter
-// than a start from the estimate. The means of its results are taken over more of them, the swings of sound being what is left.
-constexpr double windows_per_passage = 8, averaged_windows = 2;
-constexpr int parts_of_window = 4;
-constexpr int quiet_in_a_row = 2;          // a flow that swings stands still where it turns
+// than a start from the estimate. With particles they slide on by halves, and the two that agree are those of the results' means.
+constexpr double windows_per_passage = 8;
+constexpr int averaged_windows = 2;
+constexpr int parts_of_window = FlowWindow::parts_of_block * FlowWindow::blocks / averaged_windows;
 constexpr double most_uncertain = 4;       // in tolerances
+// A flow that swings stands still where it turns: two comparisons that share no part must be quiet, unless an end lets sound out.
+constexpr int quiet_in_a_row = 2, quiet_while_sliding = 3;
 
 bool is_steady(const Scene& scene) { return scene.config.about.mode == deck::Mode::steady; }
 /// Parts of a period differ by its form and tell nothing.
 int parts_of(const Scene& scene) { return is_steady(scene) ? parts_of_window : 1; }
+
+/// Whether the means are those of the windows that agreed. A pulse has its form and a jet on cells its swings: what they are averaged
+/// over begins when they have settled.
+bool does_slide(const Scene& scene) { return scene.config.numerics.convergence && is_steady(scene) && scene.config.scheme() != deck::SchemeName::cells; }
+
+int quiet_needed(const Scene& scene) {
+    if (!does_slide(scene)) return quiet_in_a_row;
+    const bool is_sound_let_out = std::any_of(scene.ends.begin(), scene.ends.end(), [](const OpenEnd& end) { return end.absorber.is_there(); });
+    return is_sound_let_out ? 1 : quiet_while_sliding;
+}
 
 double window_length(const Scene& scene) {
     const deck::Case& config = scene.config;
@@ -75,11 +87,11 @@ WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, do
     return result;
 }
 
-FlowWindow::FlowWindow(const Scene& scene) : length_(window_length(scene)) {
+FlowWindow::FlowWindow(const Scene& scene) : length_(window_length(scene)), slides_(does_slide(scene)) {
     const double duration = scene.config.numerics.duration;
     state_.end = duration;
     averaging_ = (is_steady(scene) ? averaged_windows : 1) * length_;
-    start_ = is_watched() ? duration - averaging_ : window_start(scene.config);
+    start_ = slides_ ? duration : is_watched() ? duration - averaging_ : window_start(scene.config);
     exact_times_.push_back(start_);
     if (is_watched()) {
         state_.marks.push_back(mark_flow(scene));
@@ -90,29 +102,28 @@ FlowWindow::FlowWindow(const Scene& scene) : length_(window_length(scene)) {
     std::sort(exact_times_.begin(), exact_times_.end());
 }
 
-void FlowWindow::observe(const Scene& scene) {
-    if (state_.begin) return;
-    if (scene.time >= start_) {   // the last chance
-        state_.begin = mark_flow(scene);
-        return;
-    }
-    const int parts = parts_of(scene);
-    if (!is_watched() || scene.time < state_.marks.back().time + length_ / parts * (1 - 1e-9)) return;
-    state_.marks.push_back(mark_flow(scene));
-    if (int(state_.marks.size()) == 2 * parts + 1) compare_windows(scene);
+bool FlowWindow::observe(const Scene& scene) {
+    if (state_.begin) return false;
+    const std::size_t parts = std::size_t(parts_of(scene)), step = slides_ ? parts_of_block : parts;
+    const bool is_part = is_watched() && scene.time >= state_.marks.back().time + length_ / double(parts) * (1 - 1e-9);
+    if (is_part) state_.marks.push_back(mark_flow(scene));
+    const bool is_full = state_.marks.size() == 2 * parts + 1;
+    if (is_part && is_full) compare_windows(scene);
+    if (!state_.begin && scene.time >= start_) state_.begin = slides_ ? state_.marks.front() : mark_flow(scene);   // the last chance
+    if (state_.begin) return false;
+    if (is_full) state_.marks.erase(state_.marks.begin(), state_.marks.begin() + std::ptrdiff_t(step));
+    return is_part && slides_ && (state_.marks.size() - 1) % step == 0;
 }
 
 void FlowWindow::compare_windows(const Scene& scene) {
-    const int parts = parts_of(scene);
-    const WindowChange change = change_of_windows(state_.marks, parts, scene.config.numerics.convergence->tolerance_percent, scene.datum);
+    const WindowChange change = change_of_windows(state_.marks, parts_of(scene), scene.config.numerics.convergence->tolerance_percent, scene.datum);
     state_.change_percent = change.change;
     state_.quiet_windows = change.excess <= 0 ? state_.quiet_windows + 1 : 0;
-    state_.is_settled = state_.quiet_windows >= quiet_in_a_row;
+    state_.is_settled = state_.quiet_windows >= quiet_needed(scene);
     if (state_.is_settled) {
-        state_.begin = state_.marks.back();
-        state_.end = std::min(scene.time + averaging_, scene.config.numerics.duration);
+        state_.begin = slides_ ? state_.marks.front() : state_.marks.back();
+        state_.end = slides_ ? scene.time : std::min(scene.time + averaging_, scene.config.numerics.duration);
     }
-    state_.marks.erase(state_.marks.begin(), state_.marks.begin() + parts);
 }
 
 }   // namespace patency

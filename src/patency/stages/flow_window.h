@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From when to when a flow's results are means over time. Without `numerics.convergence` the deck's times say it; with it
-// the flow is watched until it has settled, and then a while longer.
+// the flow is watched until it has settled: a steady flow of particles over the windows that agreed, others a while longer.
 #pragma once
 
 #include <optional>
@@ -20,16 +20,21 @@ class FlowWindow {
 public:
     explicit FlowWindow(const Scene& scene);
 
-    /// To be called after every step.
-    void observe(const Scene& scene);
+    /// To be called after every step. True where a block of the means ends, of a flow whose windows slide: the next begins, and the
+    /// oldest of `blocks` is none of theirs any more.
+    bool observe(const Scene& scene);
+    bool slides() const { return slides_; }
+    double block_begin() const { return state_.marks[state_.marks.size() - 1 - (state_.marks.size() - 1) % parts_of_block].time; }
+    static constexpr std::size_t parts_of_block = 2;
+    static constexpr std::size_t blocks = 4;   ///< half windows that the means are made of
 
     const std::vector<double>& exact_times() const { return exact_times_; }   ///< that steps must end at [s]
-    /// Where the means begin; none while that is still ahead.
+    /// Where the means begin; none while that is not known.
     const std::optional<FlowMark>& begin() const { return state_.begin; }
     double end() const { return state_.end; }   ///< where the run ends, by what is known now [s]
 
-    /// With a convergence: whether flows and pressures of all openings had settled before the means began, and by how much
-    /// their means changed from the last window but one to the last [%].
+    /// With a convergence: whether flows and pressures of all openings had settled, and by how much their means changed from the last
+    /// window but one to the last [%].
     bool is_watched() const { return length_ > 0; }
     bool is_settled() const { return state_.is_settled; }
     double change_percent() const { return state_.change_percent; }
@@ -50,6 +55,7 @@ private:
     void compare_windows(const Scene& scene);
 
     double length_ = 0, averaging_ = 0, start_ = 0;
+    bool slides_ = false;
     std::vector<double> exact_times_;
     State state_;
 };

@@ -75,7 +75,7 @@ deck::Case make_boundaries(const Vessel& vessel, const InitSettings& settings, c
 
 /// What a flow needs along the way from the inlet that needs most.
 /// A profile is steady when its slowest viscous mode has fallen to a hundredth, or when blood at half the mean velocity has
-/// passed, whichever is sooner; a way is steady when its branches have become so one after another. THEORY.md (15.7)
+/// passed, whichever is sooner; a way is steady when its branches have become so one after another. THEORY.md (15.8)
 double settling_of(const Estimate& e, double kinematic_viscosity) {
     constexpr double first_zero = 2.404825557695773;
     std::vector<double> up_to(e.tree.branches.size());
@@ -186,9 +186,8 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     const FluidMaterial blood = make_material(plan.config.blood);
     plan.settling = settling_of(plan.estimate, blood.kinematic_viscosity());
 
-    // Started from the estimate it is steady sooner, as a rule, and then ends: this is the longest.
+    // Started from the flow on cells it is steady sooner, as a rule, and then ends: this is the longest.
     plan.config.numerics.scheme = deck::SchemeName::sph;
-    plan.config.initial = {.velocity = deck::InitialVelocity::estimate, .speed = {}, .pressure = deck::InitialPressure::estimate};
     plan.config.numerics.convergence.emplace();
     plan.config.numerics.duration = written(plan.settling, "s", 2, true);
     const auto scene = coarsest_frame(plan.config, vessel);

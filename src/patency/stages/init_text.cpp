@@ -273,7 +273,6 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
     text += "aorta:\n" + commented("  pressure: " + quantity(*c.aorta.pressure, "mmHg"),
                                    "mean, of 120 over 80; the reference of FFR");
     text += bed_text(plan) + stent_text(vessel, plan);
-    text += commented("initial: {velocity: estimate, pressure: estimate}", "the blood at the start: the flow of patency estimate");
     text += "numerics:\n" +
             commented("  scheme: cells", "a steady flow on the cells of still particles; sph: moving ones, hours") +
             commented(fmt::format("  across: {}", format_number(*c.numerics.across)), "cells in each local diameter") +

@@ -103,6 +103,7 @@ VectorField velocity_field(const Scene& scene) {
             };
         }
         case deck::InitialVelocity::womersley: return womersley_field(scene);
+        case deck::InitialVelocity::cells: break;   // all places at once
         case deck::InitialVelocity::estimate: {
             // A pulse starts where its inflow does.
             double now = 0, mean = 0;
@@ -115,7 +116,7 @@ VectorField velocity_field(const Scene& scene) {
             return mean_over_cell(at, scene.numerics.spacing);
         }
     }
-    return {};
+    return [](const Vec3&) { return Vec3{}; };
 }
 
 struct PressureField {
@@ -164,13 +165,41 @@ PressureField pressure_field(const Scene& scene) {
 
 }  // namespace
 
-void compute_initial_state(Scene& scene) {
+namespace {
+
+/// Of the case's own accord: what cannot be solved on cells starts from the estimate.
+void fall_back(Scene& scene, const Error& error) {
+    deck::Initial& initial = scene.config.initial;
+    if (initial.velocity == deck::InitialVelocity::cells || initial.pressure == deck::InitialPressure::cells) throw;
+    if (!initial.velocity) initial.velocity = deck::InitialVelocity::estimate;
+    if (!initial.pressure) initial.pressure = deck::InitialPressure::estimate;
+    scene.start_remark = fmt::format("starts from the estimate, for on cells: {}", error.what());
+}
+
+/// The flow on cells, where the case starts from it; else none. Outlets' capacitors begin as it leaves them.
+std::unique_ptr<const CellStart> solve_on_cells(Scene& scene, const SolveOnCells& solve) {
+    const bool is_wanted = scene.config.initial_velocity() == deck::InitialVelocity::cells || scene.config.initial_pressure() == deck::InitialPressure::cells;
+    if (!is_wanted) return nullptr;
+    try {
+        auto start = solve(scene);
+        for (std::size_t k = 0; k < scene.ends.size(); ++k)
+            if (EndLaw& law = scene.laws[k]; law.outlet && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
+                law.state = law.level_state = make_steady_state(*law.outlet, start->ends()[k].flow);
+        scene.start_remark = fmt::format("starts from the flow on {} cells", start->cells());
+        return start;
+    } catch (const Error& error) {
+        fall_back(scene, error);
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+void compute_initial_state(Scene& scene, const SolveOnCells& solve) {
     FluidParticles& fluid = scene.fluid;
+    const auto on_cells = solve_on_cells(scene, solve);
     const VectorField velocity = velocity_field(scene);
     const PressureField pressure = pressure_field(scene);
-    // The paper's scheme sums densities: its particles must weigh what their pressure says.
-    const bool is_summed = scene.config.scheme() == deck::SchemeName::paper;
-    const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const Vec3& x = fluid.position[i];
         fluid.velocity[i] = velocity(x);
@@ -178,12 +207,23 @@ void compute_initial_state(Scene& scene) {
         fluid.pressure_gradient[i] = pressure.gradient(x);
         fluid.pressure_rate[i] = 0;
         fluid.viscosity[i] = scene.material.viscosity;
-        if (is_summed) fluid.volume[i] *= 1 + fluid.pressure[i] / stiffness;
     }
-    for (OpenEnd& end : scene.ends) {   // what is heard there is a departure from this
-        end.absorber.mean = pressure.value(end.centre);
-        end.mean_pressure = end.absorber.mean - scene.reference_pressure;
+    for (OpenEnd& end : scene.ends) end.absorber.mean = pressure.value(end.centre);   // what is heard there is a departure from this
+    const std::span<const Vec3> places(&fluid.position[0], fluid.size());
+    if (scene.config.initial_velocity() == deck::InitialVelocity::cells) {
+        const std::vector<Vec3> solved = on_cells->velocities(places);
+        for (std::size_t i = 0; i < fluid.size(); ++i) fluid.velocity[i] = solved[i];
     }
+    if (scene.config.initial_pressure() == deck::InitialPressure::cells) {
+        const std::vector<double> solved = on_cells->pressures(places);
+        for (std::size_t i = 0; i < fluid.size(); ++i) fluid.pressure[i] = solved[i] - scene.reference_pressure;
+        for (std::size_t k = 0; k < scene.ends.size(); ++k) scene.ends[k].absorber.mean = on_cells->ends()[k].pressure;
+    }
+    for (OpenEnd& end : scene.ends) end.mean_pressure = end.absorber.mean - scene.reference_pressure;   // where a flow is imposed
+    if (scene.config.scheme() != deck::SchemeName::paper) return;
+    // The paper's scheme sums densities: its particles must weigh what their pressure says.
+    const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
+    for (std::size_t i = 0; i < fluid.size(); ++i) fluid.volume[i] *= 1 + fluid.pressure[i] / stiffness;
 }
 
 }  // namespace patency

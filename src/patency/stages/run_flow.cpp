@@ -34,7 +34,7 @@ namespace patency {
 namespace {
 
 // Instants that the means along a vessel are made of: a steady flow only trembles, a pulse has its form.
-constexpr int steady_instants = 5, periodic_instants = 40;
+constexpr int steady_instants = 8, periodic_instants = 40;
 
 bool is_steady_on_cells(const deck::Case& config) { return config.scheme() == deck::SchemeName::cells && config.about.mode == deck::Mode::steady; }
 
@@ -77,6 +77,7 @@ private:
         } else {
             deck::write_case(config_, stage_.folder.file("case.resolved.yaml"));
             scene_ = restless ? build_cell_scene(config_, *restless) : build_scene(config_);
+            if (!scene_->start_remark.empty()) say(scene_->start_remark);
         }
         config_.numerics = scene_->config.numerics;   // whose times a flow without rest has chosen
         recorder_.emplace(*scene_);
@@ -134,6 +135,7 @@ private:
 
     void write_results() {
         const FlowMark from = window_->begin().value(), to = mark_flow(*scene_);
+        if (vessel_) vessel_->join_blocks();
         nlohmann::ordered_json summary = make_summary(*scene_, from);
         summary["made_from"] = origin_summary(origin_);
         if (window_->is_watched())
@@ -158,7 +160,12 @@ private:
 
     /// An instant of the means along the vessel is due: evenly over the window, the last at its end.
     bool is_instant_due() const {
-        if (!vessel_ || !window_->begin()) return false;
+        if (!vessel_) return false;
+        if (window_->slides()) {   // evenly over every block, for any may be the last; its last instant is its end
+            const double instant = 2 * window_->length() / steady_instants;
+            return scene_->time - window_->block_begin() >= (double(vessel_->instants()) + 1) * instant * (1 - 1e-9);
+        }
+        if (!window_->begin()) return false;
         const double begin = window_->begin()->time, length = window_->end() - begin;
         const bool has_form = config_.about.mode == deck::Mode::periodic || is_steady_on_cells(config_);   // a pulse, or a jet that swings
         const int wanted = has_form ? periodic_instants : steady_instants;
@@ -175,10 +182,11 @@ private:
     }
 
     void observe() {
-        window_->observe(*scene_);
-        const bool is_end = is_at_end();
+        const bool is_block_end = window_->observe(*scene_), is_end = is_at_end();
         recorder_->observe(*scene_, is_end);
-        if (is_instant_due()) vessel_->sample(*scene_);
+        if (vessel_ && window_->slides() && (is_block_end || is_end)) vessel_->sample(*scene_);
+        else if (is_instant_due()) vessel_->sample(*scene_);
+        if (vessel_ && is_block_end) vessel_->end_block(FlowWindow::blocks - 1);
         const auto& interval = config_.output.interval;
         if (is_end || (interval && scene_->time >= double(frames_->size()) * *interval)) write_frame();
         // Checkpoints lie between steps and clip none: when they are written changes no bit.

@@ -39,6 +39,7 @@ struct Scene {
     FlowNumerics numerics;
     std::unique_ptr<FlowScheme> scheme;
     RelaxQuality relax_quality{}; ///< of the points it started from
+    std::string start_remark{};   ///< what the flow started from, if there is something to say
     std::function<double(const Vec3&)> spacing_at;   ///< [m]; empty: numerics.spacing everywhere
     std::optional<WallParts> wall_parts;             ///< of a scheme that knows the flow at the wall itself
 

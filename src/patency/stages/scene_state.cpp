@@ -29,7 +29,7 @@ void for_each_number(SceneType& scene, Visit visit) {
         visit("end_mean_pressure", end.mean_pressure);
         visit("end_slope", end.slope);
         visit("end_sound_mean", end.absorber.mean);
-        visit("end_sound_flow", end.absorber.flow);
+        visit("end_sound_let_out", end.absorber.let_out);
         visit("end_crossed", end.crossed);
         visit("end_crossed_volume", end.crossed_volume);
         visit("law_state_0", law.state[0]);

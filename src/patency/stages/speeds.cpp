@@ -101,7 +101,7 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
         offset = std::max({offset, std::abs(low), std::abs(high)});
     }
     double driving = highest > lowest ? highest - lowest : 0, flow = inflow;
-    // Behind a vessel whose pressures are all alike the beds limit the flow, and it loses little. THEORY.md (15.6)
+    // Behind a vessel whose pressures are all alike the beds limit the flow, and it loses little. THEORY.md (15.7)
     bool is_throttled = false;
     if (!is_driven_by_flow) {
         const double gradient = driving / length + rho * norm(config.body_force);

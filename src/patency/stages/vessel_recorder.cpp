@@ -85,11 +85,30 @@ std::vector<double> VesselRecorder::wall_pressure() const {
     return mean;
 }
 
-void VesselRecorder::restore(const State& state) {
+void VesselRecorder::restore(const State& state, std::vector<State> finished) {
     flows_.restore(state.flows);
     shear_.restore(state.shear);
     wall_pressure_ = state.pressure;
     cut_.restore(state.cut);
+    finished_ = std::move(finished);
+}
+
+void VesselRecorder::end_block(std::size_t kept) {
+    finished_.push_back(state());
+    if (finished_.size() > kept) finished_.erase(finished_.begin(), finished_.end() - std::ptrdiff_t(kept));
+    flows_ = {}, shear_ = {};
+    wall_pressure_.clear();
+    cut_.restore(std::vector<double>(cut_.state().size(), 0.0));
+}
+
+void VesselRecorder::join_blocks() {
+    State sum = state();   // all of it is sums; what saw no instant has none
+    const auto add = [](std::vector<double>& to, const std::vector<double>& from) {
+        if (to.size() < from.size()) to.resize(from.size(), 0.0);
+        for (std::size_t n = 0; n < from.size(); ++n) to[n] += from[n];
+    };
+    for (const State& block : finished_) add(sum.flows, block.flows), add(sum.shear, block.shear), add(sum.pressure, block.pressure), add(sum.cut, block.cut);
+    restore(sum);
 }
 
 }   // namespace patency

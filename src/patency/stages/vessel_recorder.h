@@ -34,7 +34,12 @@ public:
     /// What there is now, as one instant of the means.
     void sample(const Scene& scene);
 
-    std::size_t instants() const { return flows_.instants(); }
+    /// What was sampled since the last call becomes a block of its own; of the finished ones the last `kept` stay.
+    void end_block(std::size_t kept);
+    /// Adds the finished blocks to what was sampled since.
+    void join_blocks();
+
+    std::size_t instants() const { return flows_.instants(); }   ///< since the last block ended
     const std::vector<VesselStation>& stations() const { return stations_; }
     const SectionFlowMeans& flows() const { return flows_; }    ///< as the stations; pressures as the deck counts them
     const LumenWall& wall() const { return wall_; }
@@ -47,7 +52,8 @@ public:
         std::vector<double> flows, shear, pressure, cut;
     };
     State state() const { return {flows_.state(), shear_.state(), wall_pressure_, cut_.state()}; }
-    void restore(const State& state);
+    const std::vector<State>& finished() const { return finished_; }
+    void restore(const State& state, std::vector<State> finished = {});
 
 private:
     std::vector<VesselStation> stations_;
@@ -57,6 +63,7 @@ private:
     SectionFlowMeans flows_;
     WallShearMeans shear_;
     std::vector<double> wall_pressure_;   // sums
+    std::vector<State> finished_;         // blocks, oldest first
 };
 
 /// The sections at which branches are measured: those of the vessel that belong to their branch alone, one every half

@@ -165,8 +165,9 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
         }
         return worst;
     });
-    figures.add({"steps_from_estimate_over_rest", "1", Bar{0.5}}, {"d40", "d40_rest"},
-                [&] { return number(results["d40"], "acoustic_steps") / number(results["d40_rest"], "acoustic_steps"); });
+    for (const auto& [start, run] : {std::pair{"cells", "d40"}, std::pair{"estimate", "d40_estimate"}})
+        figures.add({fmt::format("steps_from_{}_over_rest", start), "1", Bar{0.5}}, {run, "d40_rest"},
+                    [&, run] { return number(results[run], "acoustic_steps") / number(results["d40_rest"], "acoustic_steps"); });
     for (const OutletReference& o : outlets) {
         const std::string name = std::string("velocity_") + o.name;
         figures.add({fmt::format("velocity_{}", o.key), "m/s", {}}, {"d20"}, [&results, name] { return number(results["d20"], name); });

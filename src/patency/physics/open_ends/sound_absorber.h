@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An end that imposes a flow throws sound back whole. A flow that is steady in the end may breathe meanwhile: what the pressure
-// departs from its own slow mean, times A / (rho c), is let out, which is what an endless vessel would do. THEORY.md (8.12)
+// Ends throw sound back: whole, with an imposed flow, and whole but turned over, with an imposed pressure. In a flow that is steady
+// in the end they may breathe meanwhile: what departs from its own slow mean is answered with the impedance rho c / A of an endless
+// vessel. THEORY.md (8.12), (8.13)
 #pragma once
 
 #include <cmath>
@@ -8,18 +9,22 @@
 namespace patency {
 
 struct SoundAbsorber {
-    double admittance = 0;   ///< A / (rho c) of the section [m^3/(Pa s)]; 0: everything comes back
-    double memory = 0;       ///< of the slow mean: a few times what sound needs through the vessel [s]
-    double delay = 0;        ///< of the answer: a few times what it needs from the end to where the pressure is heard [s]
+    double impedance = 0;   ///< rho c / A of the section [Pa s/m^3]; 0: everything comes back
+    double memory = 0;      ///< of the slow mean [s]
+    double delay = 0;       ///< of the answer of an end with an imposed flow: what sound needs to where its pressure is heard, and more [s]
 
-    double mean = 0;         ///< slow mean of the pressure; at the start the pressure that is thought steady [Pa]
-    double flow = 0;         ///< let out [m^3/s]
+    double mean = 0;        ///< slow mean of the pressure at an imposed flow [Pa], of the flow out at an imposed pressure [m^3/s]
+    double let_out = 0;     ///< beside an imposed flow [m^3/s]
 
-    /// The pressure [Pa] has been this for dt [s]. Both lags are exact for it.
+    bool is_there() const { return impedance > 0; }
+
+    /// Of an imposed flow: the pressure [Pa] has been this for dt [s].
     void hear(double pressure, double dt) {
-        mean += -std::expm1(-dt / memory) * (pressure - mean);
-        flow += -std::expm1(-dt / delay) * (admittance * (pressure - mean) - flow);
+        follow(pressure, dt);
+        let_out += -std::expm1(-dt / delay) * ((pressure - mean) / impedance - let_out);
     }
+    /// The slow mean of a value that has been this for dt [s].
+    void follow(double value, double dt) { mean += -std::expm1(-dt / memory) * (value - mean); }
 };
 
 }  // namespace patency

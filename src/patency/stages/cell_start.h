@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A steady flow of moving particles starts from the same flow solved on cells, a few across: jets and flow split are there from
+// the beginning, and what is left to the particles is what their spacing makes of it.                  THEORY.md (15.6)
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "patency/schemes/cell_balance.h"
+#include "patency/stages/scene.h"
+
+namespace patency {
+
+struct CellScene;
+
+class CellStart {
+public:
+    /// Of a scene whose frame is there. Solves the flow: seconds. Throws DeckError, GeometryError, DivergedError.
+    explicit CellStart(const Scene& scene);
+    ~CellStart();
+    CellStart(const CellStart&) = delete;
+
+    /// Velocities [m/s] of particles there: means over their cells.
+    std::vector<Vec3> velocities(std::span<const Vec3> places) const;
+    /// Pressures [Pa] as the scene's deck counts them.
+    std::vector<double> pressures(std::span<const Vec3> places) const;
+    const std::vector<CellEndState>& ends() const { return ends_; }   ///< as the scene's
+    std::size_t cells() const;
+
+private:
+    const Scene& scene_;
+    std::unique_ptr<const CellScene> solved_;
+    std::vector<CellEndState> ends_;
+};
+
+}   // namespace patency
