@@ -10,6 +10,7 @@
 #include "solid_runner.h"
 #include "patency/stages/build.h"
 #include "patency/stages/cell_plan.h"
+#include "patency/stages/cell_start.h"
 #include "patency/stages/deploy_plan.h"
 #include "patency/stages/disk_plan.h"
 #include "patency/stages/plan.h"
@@ -31,11 +32,14 @@ std::string readable_size(double bytes) { return bytes < 995e6 ? fmt::format("{:
 struct FlowCost {
     double across, memory, seconds, disk;
     int threads;
+    double longest_seconds = seconds;   ///< if the flow does not settle
 };
 
 void print_cost(const FlowCost& cost) {
     fmt::print("  memory, disk         about {}, {}\n", readable_size(cost.memory), readable_size(cost.disk));
-    fmt::print("  expected time        about {} on {} threads\n", readable_time(cost.seconds), cost.threads);
+    fmt::print("  expected time        about {} on {} threads", readable_time(cost.seconds), cost.threads);
+    if (cost.longest_seconds > 1.1 * cost.seconds) fmt::print(" if the flow settles soon, {} at the longest", readable_time(cost.longest_seconds));
+    fmt::print("\n");
     if (cost.across < 12) fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
 }
 
@@ -52,7 +56,7 @@ void print_flow_plan(const std::string& path, const FlowPlan& plan) {
     fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", plan.reynolds);
     fmt::print("  largest speed        {:.3g} m/s\n", plan.speed);
     fmt::print("  sound speed          {:.3g} m/s\n", plan.sound_speed);
-    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, {:.3g} acoustic steps in all\n", plan.advection_step, plan.acoustic_step, plan.acoustic_steps);
+    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, about {:.3g} acoustic steps\n", plan.advection_step, plan.acoustic_step, plan.acoustic_steps);
     fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles, plan.wall_particles,
                plan.across_narrowest);
 }
@@ -90,7 +94,11 @@ void check(const DeckOptions& options) {
     } else {
         const FlowPlan plan = plan_flow(*build_frame(config), threads);
         print_flow_plan(options.path, plan);
-        cost = {plan.across_narrowest, plan.memory, plan.seconds, flow_disk(config, plan.fluid_particles, plan.wall_particles, known), threads};
+        cost = {plan.across_narrowest, plan.memory, plan.seconds, flow_disk(config, plan.fluid_particles, plan.wall_particles, known), threads, plan.longest_seconds};
+        if (config.initial_velocity() == deck::InitialVelocity::cells) {
+            const double start = plan_cells(case_on_cells(config), threads, known).seconds;
+            cost.seconds += start, cost.longest_seconds += start;
+        }
     }
     print_cost(cost);
     if (!deployment) return;

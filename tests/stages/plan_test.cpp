@@ -43,6 +43,18 @@ TEST(Plan, AtAnotherSpacingIsThatOfAFrameOfThatSpacing) {
     EXPECT_NEAR(plan_flow(tube(), 1).seconds, 2 * own.seconds, 1e-9 * own.seconds);
 }
 
+TEST(Plan, AFlowThatIsWaitedForProbablyEndsSooner) {
+    deck::Case config = tube().config;
+    EXPECT_EQ(plan_flow(tube(), 2).longest_seconds, plan_flow(tube(), 2).seconds);
+    config.numerics.convergence.emplace();
+    const FlowPlan waited = plan_flow(*build_frame(config), 2);
+    // From rest eight windows, each an eighth of what 2 mL/s need through 40 mm of 4 mm: 0.2513 s.
+    EXPECT_NEAR(waited.seconds / waited.longest_seconds, 0.2513, 1e-3);
+    EXPECT_NEAR(waited.longest_seconds, plan_flow(tube(), 2).seconds, 1e-9 * waited.longest_seconds);
+    config.numerics.convergence->window = 0.5;   // and never after its duration
+    EXPECT_DOUBLE_EQ(plan_flow(*build_frame(config), 2).seconds, waited.longest_seconds);
+}
+
 TEST(FinestSpacing, MoreBudgetIsNeverCoarserAndAlwaysKept) {
     double before = 1;
     for (double seconds = 1; seconds < 1e5; seconds *= 1.7) {

@@ -10,19 +10,18 @@ namespace {
 // Cells across every vessel: the flow split is within 1 %, and the solution costs less than the particles' first two windows.
 constexpr double cells_across = 8;
 
-deck::Case case_on_cells(const Scene& scene) {
-    deck::Case config = scene.config;   // pressures less the datum: so are the fields
+}   // namespace
+
+deck::Case case_on_cells(deck::Case config) {
     config.numerics.scheme = deck::SchemeName::cells;
     config.numerics.spacing = 0;
     config.numerics.across = cells_across;
     return config;
 }
 
-}   // namespace
-
 CellStart::CellStart(const Scene& scene)
     : scene_(scene),
-      solved_(make_solved_scene(case_on_cells(scene), {}, {}, std::shared_ptr<const Vessel>(std::shared_ptr<void>(), &*scene.vessel))),
+      solved_(make_solved_scene(case_on_cells(scene.config /* pressures less the datum: so are the fields */), {}, {}, std::shared_ptr<const Vessel>(std::shared_ptr<void>(), &*scene.vessel))),
       ends_(solved_->balance->end_states()) {}
 
 CellStart::~CellStart() = default;

@@ -14,6 +14,9 @@ namespace patency {
 
 struct CellScene;
 
+/// The deck of the flow that a deck of moving particles starts from.
+deck::Case case_on_cells(deck::Case config);
+
 class CellStart {
 public:
     /// Of a scene whose frame is there. Solves the flow: seconds. Throws DeckError, GeometryError, DivergedError.

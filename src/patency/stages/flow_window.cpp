@@ -87,6 +87,15 @@ WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, do
     return result;
 }
 
+double probable_end(const Scene& scene) {
+    const deck::Case& config = scene.config;
+    if (!does_slide(scene)) return config.numerics.duration;
+    // Windows until two agreed, of seven flows: 2.5 to 3.5 from the flow on cells, 4.5 and 5 from the estimate, 7.5 and 8 from rest.
+    const auto start = config.initial_velocity();
+    const double windows = start == deck::InitialVelocity::cells ? 3 : start == deck::InitialVelocity::estimate ? 5 : 8;
+    return std::min(windows * window_length(scene), config.numerics.duration);
+}
+
 FlowWindow::FlowWindow(const Scene& scene) : length_(window_length(scene)), slides_(does_slide(scene)) {
     const double duration = scene.config.numerics.duration;
     state_.end = duration;

@@ -60,6 +60,10 @@ private:
     State state_;
 };
 
+/// When the run of a scene (build_frame is enough) will probably end [s]: its duration, or sooner if it waits for rest and finds it like the
+/// flows of verify coronary_bifurcation did.
+double probable_end(const Scene& scene);
+
 /// The change between two windows of `parts` each, whose ends are `marks` (2 parts + 1). Flows count by the inflow; pressures beside the
 /// first opening's by the range of the openings; that one's own, the level, by what it is above the datum [Pa]. Parts that scatter tell
 /// how uncertain a mean is; never is more than four times the tolerance [%] put down to that.        THEORY.md section 15

@@ -73,7 +73,7 @@ struct InitPlan {
     bool with_stent;                      ///< it is in the deck, not a comment there
 
     double across(double diameter) const { return diameter / moving_spacing; }   ///< moving particles
-    bool is_within_budget() const { return price.seconds <= budget.seconds && price.memory <= budget.memory; }
+    bool is_within_budget() const { return price.longest_seconds <= budget.seconds && price.memory <= budget.memory; }
 };
 
 /// Of the deck that is written: within some per cent of the limit, in a minute (docs/VERIFICATION.md).

@@ -36,9 +36,9 @@ std::string readable_time(double seconds) {
 std::string price(const FlowPlan& p, double spacing) {
     return fmt::format(
         "spacing {}: {:.2g} particles of blood and {:.2g} of wall, {:.2g} acoustic steps of {:.2g} s, {:.0f} MB, about "
-        "{} on {} thread{}",
+        "{} on {} thread{} if the flow settles soon, {} at the longest",
         format_quantity(spacing, "mm"), p.fluid_particles, p.wall_particles, p.acoustic_steps, p.acoustic_step,
-        p.memory / 1e6, readable_time(p.seconds), p.threads, p.threads == 1 ? "" : "s");
+        p.memory / 1e6, readable_time(p.seconds), p.threads, p.threads == 1 ? "" : "s", readable_time(p.longest_seconds));
 }
 
 /// How well something of that diameter is seen by moving particles.

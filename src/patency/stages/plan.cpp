@@ -7,6 +7,7 @@
 
 #include "patency/physics/open_ends/profile.h"
 #include "patency/stages/build.h"
+#include "patency/stages/flow_window.h"
 #include "patency/stages/lumen_of_case.h"
 
 namespace patency {
@@ -43,13 +44,15 @@ FlowPlan plan_flow(const Scene& scene, int threads, double dp) {
     const double acoustic = n.acoustic_cfl * h / (c + u);
     const double inner = std::ceil(plan.advection_step / acoustic);
     plan.acoustic_step = plan.advection_step / inner;
-    plan.acoustic_steps = scene.config.numerics.duration / plan.acoustic_step;
+    const double end = probable_end(scene);
+    plan.acoustic_steps = end / plan.acoustic_step;
     plan.fluid_particles = (scene.lumen.volume + area * beyond) / cell;
     plan.wall_particles = (scene.lumen.wall_area + rim * (beyond + 2 * h)) * thickness / cell;
     plan.across_narrowest = width / dp;
     plan.memory = (plan.fluid_particles + plan.wall_particles) * (n.planar ? bytes_per_particle_in_plane : bytes_per_particle_in_space);
     plan.threads = threads;
     plan.seconds = plan.fluid_particles * plan.acoustic_steps / (steps_per_second * threads);
+    plan.longest_seconds = plan.seconds * scene.config.numerics.duration / end;
     return plan;
 }
 
@@ -69,7 +72,7 @@ double finest_spacing(const Scene& scene, const Budget& budget, double coarsest)
     double finest = round_spacing(coarsest);
     for (double dp = finest;; dp = round_spacing(least_step * dp)) {
         const FlowPlan plan = plan_flow(scene, budget.threads, dp);
-        if (!(plan.seconds <= budget.seconds && plan.memory <= budget.memory)) return finest;
+        if (!(plan.longest_seconds <= budget.seconds && plan.memory <= budget.memory)) return finest;
         finest = dp;
     }
 }

@@ -12,11 +12,12 @@ struct FlowPlan {
     double sound_speed;           ///< [m/s]
     double advection_step;        ///< [s]
     double acoustic_step;         ///< [s]
-    double acoustic_steps;        ///< over the duration
+    double acoustic_steps;        ///< until the probable end
     double fluid_particles, wall_particles;   ///< buffers and walls beyond the openings included
     double across_narrowest;      ///< particles
     double memory;                ///< bytes
-    double seconds;               ///< expected on `threads` threads
+    double seconds;               ///< expected on `threads` threads, until then
+    double longest_seconds;       ///< over the whole duration
     int threads;
 };
 
@@ -26,7 +27,7 @@ FlowPlan plan_flow(const Scene& scene, int threads, double spacing);
 
 /// What a flow may cost.
 struct Budget {
-    double seconds;   ///< of computing, on `threads` threads
+    double seconds;   ///< of computing at the longest, on `threads` threads
     double memory;    ///< bytes
     int threads;
 };
