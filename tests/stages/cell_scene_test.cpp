@@ -50,7 +50,7 @@ TEST(CellScene, flowsAsTheDeckSays) {
     EXPECT_NEAR(double(summary["largest_speed_m_per_s"]) / (2 * speed), 1, 0.03);
 }
 
-// What is read between ten cells across carries what flows: tangents of a profile alone would carry 4 % more.
+// What is read between ten cells across carries what flows: tangents of a profile alone would carry 2.5 % more.
 TEST(CellScene, FieldsBetweenCellsCarryTheFlow) {
     const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: pressure, pressure: "0 Pa"})"));
     const Opening &first = scene->lumen.openings[0], &last = scene->lumen.openings[1];
