@@ -27,9 +27,8 @@ CellStart::CellStart(const Scene& scene)
 CellStart::~CellStart() = default;
 
 std::vector<Vec3> CellStart::velocities(std::span<const Vec3> places) const {
-    const double half = 0.5 * scene_.numerics.spacing;
     std::vector<Vec3> mean(places.size()), around(places.size());
-    for (const Vec3& d : {Vec3{half, 0, 0}, Vec3{-half, 0, 0}, Vec3{0, half, 0}, Vec3{0, -half, 0}, Vec3{0, 0, half}, Vec3{0, 0, -half}}) {
+    for (const Vec3& d : ways_around(scene_.numerics.spacing)) {
         for (std::size_t i = 0; i < places.size(); ++i) around[i] = places[i] + d;
         const CellFields fields = solved_->balance->fields_at(around);
         for (std::size_t i = 0; i < places.size(); ++i)

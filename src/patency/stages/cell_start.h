@@ -3,6 +3,7 @@
 // the beginning, and what is left to the particles is what their spacing makes of it.                  THEORY.md (15.6)
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +17,12 @@ struct CellScene;
 
 /// The deck of the flow that a deck of moving particles starts from.
 deck::Case case_on_cells(deck::Case config);
+
+/// From a particle to the six points around it whose mean is that of a quadratic profile over its cell.   THEORY.md (15.6)
+inline std::array<Vec3, 6> ways_around(double spacing) {
+    const double half = 0.5 * spacing;
+    return {Vec3{half, 0, 0}, Vec3{-half, 0, 0}, Vec3{0, half, 0}, Vec3{0, -half, 0}, Vec3{0, 0, half}, Vec3{0, 0, -half}};
+}
 
 class CellStart {
 public:

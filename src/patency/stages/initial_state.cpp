@@ -65,9 +65,9 @@ VectorField womersley_field(const Scene& scene) {
 /// eight spacings wide by 2 % of the flow, which sound would have to take away. Exact for quadratic profiles: the mean of the points
 /// half a spacing away, at the wall the last of which rests.
 VectorField mean_over_cell(VectorField velocity, double spacing) {
-    return [velocity = std::move(velocity), half = 0.5 * spacing](const Vec3& x) {
+    return [velocity = std::move(velocity), ways = ways_around(spacing)](const Vec3& x) {
         Vec3 sum{};
-        for (const Vec3& d : {Vec3{half, 0, 0}, Vec3{0, half, 0}, Vec3{0, 0, half}}) sum += velocity(x + d) + velocity(x - d);
+        for (const Vec3& d : ways) sum += velocity(x + d);
         return sum / 6;
     };
 }
