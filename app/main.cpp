@@ -50,11 +50,12 @@ int run(int argc, char** argv) {
     return int(exit_code);
 }
 
-/// OpenMP's threads spin while they wait, which on a shared machine takes the time of those that work. libgomp reads its
-/// choice before main, so the program starts itself again with it, unless the user has made one.
+/// OpenMP's threads spin for milliseconds while they wait, which on a shared machine takes the time of those that work; but to
+/// sleep and wake takes longer than the short loops of coarse levels. These spin some ten microseconds, then sleep. libgomp reads
+/// its choices before main, so the program starts itself again with them, unless the user has made one.
 void let_threads_sleep(char** argv) {
-    if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
-    ::setenv("OMP_WAIT_POLICY", "passive", 1);
+    if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+    ::setenv("GOMP_SPINCOUNT", "1000", 1);
     ::execv("/proc/self/exe", argv);   // returns only if it fails: then they spin
 }
 

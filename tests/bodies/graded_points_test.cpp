@@ -158,6 +158,28 @@ TEST(GradedPoints, DoNotFollowEachOtherIntoASlit) {
     EXPECT_LT(p.spacing[0] / spacing, 1.02);   // all grow for those that are missing
 }
 
+// A distance may answer for places far from the wall with the least that it may say.
+TEST(GradedPoints, NeedNoDistanceFarFromTheWall) {
+    Lumen whole = taper(), frugal = whole;
+    const SignedDistance distance = whole.distance;
+    int far = 0;
+    frugal.distance = {[&](const Vec3& x) { return distance.sample(x); }, distance.bounds(), [&](const Vec3& x, double reach) {
+                           const DistanceSample s = distance.sample(x);
+                           if (std::abs(s.value) < reach) return s;
+                           EXPECT_LT(s.value, 0);   // nobody asks about places far outside
+#pragma omp atomic
+                           ++far;
+                           return DistanceSample{-reach, {}, 0};
+                       }};
+    const SpacingField field = make_spacing_field(whole, graded);
+    const GradedPoints must = make_graded_points(whole, field), is = make_graded_points(frugal, field);
+    EXPECT_GT(far, 500);
+    ASSERT_EQ(is.points.size(), must.points.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < is.points.size(); ++i) largest = std::max(largest, norm(is.points[i] - must.points[i]) / must.spacing[i]);
+    EXPECT_LT(largest, 0.02);
+}
+
 TEST(GradedPoints, AreTheSameBitsForAnotherNumberOfThreads) {
     const Lumen lumen = taper();
     const SpacingField field = make_spacing_field(lumen, graded);

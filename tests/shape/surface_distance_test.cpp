@@ -120,6 +120,31 @@ TEST(ExactDistance, IsThatOfTheNearestOfAllTriangles) {
     }
 }
 
+// In every depth of a lumen, near the wall on both sides of it, and for every reach.
+TEST(ExactDistance, WithinReachIsTheSampleAndBeyondItABound) {
+    const SignedDistance exact = make_exact_distance(make_torus_mesh(3e-3, 1e-3, 48, 20));
+    const SignedDistance later = made_when_asked([&] { return exact; }, exact.bounds());
+    int near = 0, deep = 0;
+    double shortfall = 0;
+    for (const Vec3& x : random_points(grown(exact.bounds(), 1e-3), 2000))
+        for (const double reach : {0.1e-3, 0.3e-3, 0.9e-3}) {
+            const DistanceSample must = exact.sample(x), is = exact.sample_within(x, reach);
+            ASSERT_EQ(is.value, later.sample_within(x, reach).value);
+            if (std::abs(must.value) < reach) {
+                ++near;
+                ASSERT_EQ(is.value, must.value);
+                ASSERT_EQ(norm(is.gradient - must.gradient), 0);
+            } else if (must.value < 0) {
+                ++deep;
+                ASSERT_LE(is.value, -reach);
+                ASSERT_GE(is.value, must.value * (1 + 1e-8));
+                shortfall = std::max(shortfall, is.value - must.value);
+            }
+        }
+    EXPECT_GT(std::min(near, deep), 300);
+    EXPECT_GT(shortfall, 0.1e-3);   // it did stop early
+}
+
 // A point dragged along the surface past its neighbours crumples the triangles around it into others, whose normals then point anywhere.
 TEST(ExactDistance, KnowsTheSideBesideACrumple) {
     const Surface smooth = make_torus_mesh(3e-3, 1e-3, 48, 20);

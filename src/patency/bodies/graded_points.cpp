@@ -26,6 +26,7 @@ constexpr double skin = 0.3;   // rows hold neighbours this much farther than th
 constexpr double crowded = 0.5;   // mean spacings between two points that stand for one
 constexpr double farthest = 0.1;         // that a point goes in one step, in its spacings
 constexpr double linear_within = 0.05;   // of its spacings a point may go before it asks for the distance again
+constexpr double wall_reach = 1.1 * support;   // spacings within which a point sees a wall; those may become larger on its way
 constexpr int none = -1;
 
 /// A small cube of the lumen, and how many points it should hold.
@@ -39,16 +40,17 @@ class Division {
 public:
     Division(const Lumen& lumen, const SpacingField& field) : lumen_(lumen), field_(field) {}
 
-    void add(const Vec3& middle, double side, std::vector<Share>& shares) const {
+    /// The middle lies deeper than `least` [m], as is known of the cube that was halved.
+    void add(const Vec3& middle, double side, std::vector<Share>& shares, double least = -Bounds::infinity) const {
         constexpr double sides_in_spacings = 1.6;   // 4 points; the next smaller cube holds half of one
-        const double reach = std::sqrt(3.0) / 2 * side, depth = -lumen_.distance.value(middle);
+        const double reach = std::sqrt(3.0) / 2 * side, depth = least > reach ? least : -lumen_.distance.value(middle);
         if (depth < -reach) return;
         const SpacingSettings& limits = field_.settings();
         const double spacing = field_(middle);
         if (side > sides_in_spacings * std::max(limits.smallest, spacing - limits.growth * reach)) {
             const double q = 0.25 * side;
             for (int k = 0; k < 8; ++k)
-                add(middle + Vec3{k & 1 ? q : -q, k & 2 ? q : -q, k & 4 ? q : -q}, 0.5 * side, shares);
+                add(middle + Vec3{k & 1 ? q : -q, k & 2 ? q : -q, k & 4 ? q : -q}, 0.5 * side, shares, depth - 0.5 * reach);
             return;
         }
         // What share of a cube lies before a plane depends on how it is turned; on the mean about as the way.
@@ -127,7 +129,7 @@ public:
         find_spacings();
         for_each_index(count_, [&](std::size_t i) {
             opening_[i] = opening_near(i);
-            see(i);
+            see(i, wall_reach * spacing_[i]);   // no first point lies farther outside
             keep_inside(i);
             settle(i);
         });
@@ -222,11 +224,18 @@ private:
         return none;
     }
 
-    void see(std::size_t i) {
-        const DistanceSample s = lumen_.distance.sample(x_[i]);
+    // The wall nearer than reach [m].
+    void see(std::size_t i, double reach) {
+        const DistanceSample s = lumen_.distance.sample_within(x_[i], reach);
         // No wall acts on points deeper than the kernel's support.
         const double beyond = -support * spacing_[i] - s.value;
         seen_[i] = {x_[i], s.value, s.gradient, std::max(linear_within * spacing_[i], beyond)};
+    }
+
+    // A point that has seen a wall before knows how far that one may be at the most.
+    void see(std::size_t i) {
+        const double seen = std::abs(seen_[i].depth) + norm(x_[i] - seen_[i].at);
+        see(i, std::min(wall_reach, seen / spacing_[i] + 1e-6) * spacing_[i]);
     }
 
     double depth(std::size_t i) {   // negative inside [m]

@@ -169,17 +169,27 @@ struct ExactSurface {
         }
     }
 
-    std::pair<std::uint32_t, NearestPlace> nearest(const Vec3& x) const {
+    struct Nearest {
+        std::uint32_t triangle;
+        NearestPlace near;
+        bool is_within;        ///< reach, and so known
+        double least_square;   ///< of the distances of all triangles
+    };
+    Nearest nearest(const Vec3& x, double reach) const {
         const auto& nodes = tree.nodes();
         std::uint32_t triangle = 0;
         NearestPlace best{};
-        double least = Bounds::infinity;                            // the square of its distance
+        double least = reach * reach;       // the square of its distance
+        double beyond = Bounds::infinity;   // that of all which are left out for being farther
         std::array<std::pair<std::uint32_t, double>, 64> waiting;   // the tree is at most 32 deep, two nodes each
         std::size_t count = 0;
         waiting[count++] = {0, square_to(nodes[0].box, x)};
         while (count > 0) {
             const auto [index, square] = waiting[--count];
-            if (square >= least) continue;
+            if (square >= least) {
+                beyond = std::min(beyond, square);
+                continue;
+            }
             const TriangleTree::Node& node = nodes[index];
             if (!node.is_leaf()) {
                 std::pair nearer(node.left, square_to(nodes[node.left].box, x)),
@@ -192,17 +202,20 @@ struct ExactSurface {
             std::array<double, std::size_t(Leaf::size)> square_of;
             leaves[leaf_of[index]].squares_from(x, square_of);
             for (std::uint32_t k = node.begin; k < node.end; ++k) {
+                beyond = std::min(beyond, square_of[k - node.begin] * (1 - round_off));
                 if (square_of[k - node.begin] > least * (1 + round_off)) continue;
                 const NearestPlace next = nearest_of(corners_of(tree.order()[k]), x);
                 const Vec3 d = x - next.place;
                 if (dot(d, d) < least) least = dot(d, d), best = next, triangle = tree.order()[k];
             }
         }
-        return {triangle, best};
+        const bool is_within = !(least == reach * reach && reach < Bounds::infinity);
+        return {triangle, best, is_within, is_within ? least : std::max(beyond, least)};
     }
 
-    DistanceSample sample(const Vec3& x) const {
-        const auto [t, near] = nearest(x);
+    DistanceSample sample(const Vec3& x, double reach) const {
+        const auto [t, near, is_within, least_square] = nearest(x, reach);
+        if (!is_within) return {-std::sqrt(least_square), {}, 0};
         const Vec3 n = normals[t][near.feature];
         const double distance = norm(x - near.place);
         const bool inside = crumpled[t] ? is_enclosed(surface, tree, x) : dot(x - near.place, n) < 0;
@@ -217,7 +230,8 @@ struct ExactSurface {
 SignedDistance make_exact_distance(Surface closed) {
     if (closed.triangles.empty()) throw GeometryError("A surface without triangles has no distance.");
     const auto exact = std::make_shared<const ExactSurface>(std::move(closed));
-    return {[exact](const Vec3& x) { return exact->sample(x); }, bounds(exact->surface)};
+    return {[exact](const Vec3& x) { return exact->sample(x, Bounds::infinity); }, bounds(exact->surface),
+            [exact](const Vec3& x, double reach) { return exact->sample(x, reach); }};
 }
 
 }   // namespace patency

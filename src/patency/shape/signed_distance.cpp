@@ -56,17 +56,19 @@ SignedDistance made_when_asked(std::function<SignedDistance()> make, const Bound
         std::function<SignedDistance()> make;
         std::once_flag once{};
         std::optional<SignedDistance> distance{};
+
+        const SignedDistance& get() {
+            std::call_once(once, [&] {
+                distance = make();
+                make = {};   // and what it holds
+            });
+            return *distance;
+        }
     };
     const auto later = std::make_shared<Later>();
     later->make = std::move(make);
-    return {[later](const Vec3& x) {
-                std::call_once(later->once, [&] {
-                    later->distance = later->make();
-                    later->make = {};   // and what it holds
-                });
-                return later->distance->sample(x);
-            },
-            bounds};
+    return {[later](const Vec3& x) { return later->get().sample(x); }, bounds,
+            [later](const Vec3& x, double reach) { return later->get().sample_within(x, reach); }};
 }
 
 double curvature_by_differences(const SignedDistance& distance, const Vec3& x, double step) {

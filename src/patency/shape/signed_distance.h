@@ -50,11 +50,20 @@ struct DistanceSample {
 class SignedDistance {
 public:
     using Sampler = std::function<DistanceSample(const Vec3&)>;
+    using NearSampler = std::function<DistanceSample(const Vec3&, double reach)>;
 
-    /// sampler: pure, safe to call from several threads; bounds: a box around the inside.
-    SignedDistance(Sampler sampler, Bounds bounds) : sampler_(std::move(sampler)), bounds_(bounds) {}
+    /// sampler: pure, safe to call from several threads; bounds: a box around the inside; near_sampler: what
+    /// sample_within says, if that can be said sooner.
+    SignedDistance(Sampler sampler, Bounds bounds, NearSampler near_sampler = {})
+        : sampler_(std::move(sampler)), near_sampler_(std::move(near_sampler)), bounds_(bounds) {}
 
     DistanceSample sample(const Vec3& x) const { return sampler_(x); }
+    /// Of a place that lies in the lumen or nearer to the wall than `reach` [m]: the sample where the wall is nearer than
+    /// that. Where it is not, a value between the distance and -reach, and any gradient: deep in a vessel all sides are
+    /// about as near, and which is nearest takes long to find.
+    DistanceSample sample_within(const Vec3& x, double reach) const {
+        return near_sampler_ ? near_sampler_(x, reach) : sampler_(x);
+    }
     double value(const Vec3& x) const { return sampler_(x).value; }           ///< [m], negative inside
     Vec3 gradient(const Vec3& x) const { return sampler_(x).gradient; }       ///< unit, out of the lumen
     double curvature(const Vec3& x) const { return sampler_(x).curvature; }   ///< [1/m]
@@ -62,6 +71,7 @@ public:
 
 private:
     Sampler sampler_;
+    NearSampler near_sampler_;
     Bounds bounds_;
 };
 
