@@ -172,8 +172,8 @@ struct ExactSurface {
     struct Nearest {
         std::uint32_t triangle;
         NearestPlace near;
-        bool is_within;        ///< reach, and so known
-        double least_square;   ///< of the distances of all triangles
+        bool is_within;        ///< reach; if not, triangle and place are none
+        double least_square;   ///< what no triangle's squared distance is less than, and at least that of reach if none is within it
     };
     Nearest nearest(const Vec3& x, double reach) const {
         const auto& nodes = tree.nodes();

@@ -108,7 +108,7 @@ Lumen make_network_of(const deck::Case& config) {
         throw DeckError(fmt::format("numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
                                     "a sensible answer",
                                     1e3 * narrowest));
-    // Cells see triangles, not voxels, and finer ones do not change their answer (docs/VERIFICATION.md, cells_bifurcation).
+    // Cells see triangles, not voxels, and at 12 to 20 across finer ones do not change their answer (docs/VERIFICATION.md, cells_bifurcation).
     constexpr double finest_across_radius = 12;
     const double resolution = config.numerics.follows_vessel() ? std::max(0.5 * dp, 0.5 * narrowest / finest_across_radius) : 0.5 * dp;
     Lumen lumen = make_network_lumen(network, extension_for(config.numerics, widest_diameter(network)), resolution);
