@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "patency/base/errors.h"
@@ -48,33 +47,16 @@ TEST(TreeFlow, ATubeHasThePressureDropOfPoiseuille) {
 }
 
 TEST(TreeFlow, AFlatProfileCostsTheExcessOfAnEntrance) {
-    EXPECT_EQ(entrance_excess(0), 0);
-    EXPECT_NEAR(entrance_excess(1000), 1.25, 1e-4);          // developed
-    EXPECT_NEAR(entrance_excess(1e-6), 4 * 3.44e-3, 2e-4);   // a boundary layer: 13.76 sqrt(x)
-    for (double x = 1e-5; x < 1; x *= 1.3) EXPECT_GT(entrance_excess(1.3 * x), entrance_excess(x));
-    TreeCase tree{{tube(-1, 50, 3e-3, 3e-3)}, blood, TreeFlowRate{1e-6}, {TreePressure{0}}, 1};
+    TreeCase tree{{tube(-1, 0.5, 3e-3, 3e-3)}, blood, TreeFlowRate{1e-6}, {TreePressure{0}}, 1};
     const double flat = solve_tree(tree).inlet_pressure;
     tree.inlet_entrance = 0;
-    EXPECT_NEAR(flat - solve_tree(tree).inlet_pressure, 1.25 * 0.5 * rho * std::pow(1e-6 / disc(3e-3), 2), 0.01);
+    const double excess = flat - solve_tree(tree).inlet_pressure;
+    EXPECT_NEAR(excess / (0.5 * rho * std::pow(1e-6 / disc(3e-3), 2)), 1.25, 0.05);   // Shah & London 1978
 }
 
-TEST(TreeFlow, AConeIsPoiseuilleIntegratedAndBernoulli) {
-    const TreeCase tree{{tube(-1, 0.03, 4e-3, 2e-3, 2001)}, blood, TreeFlowRate{1e-6}, {TreePressure{0}}, 0};
-    // integral of 128 mu Q / (pi D^4) over a linear D
-    const double friction = 128 * mu * 1e-6 / pi * 0.03 / (3 * 2e-3) * (std::pow(2e-3, -3) - std::pow(4e-3, -3));
-    const double bernoulli = 0.5 * rho * (std::pow(1e-6 / disc(2e-3), 2) - std::pow(1e-6 / disc(4e-3), 2));
-    EXPECT_NEAR(solve_tree(tree).inlet_pressure, friction + bernoulli, 1e-3 * friction);
-}
-
-TEST(TreeFlow, ALesionLosesTheJetOfYoungAndTsai) {
-    TreeCase tree{{tube(-1, 0.03, 3e-3, 3e-3)}, blood, TreeFlowRate{1.5e-6}, {TreePressure{0}}, 0};
-    const double healthy = solve_tree(tree).inlet_pressure;
-    tree.branches[0].lesions.push_back({0.010, 0.013, disc(1.2e-3), disc(3e-3)});
-    const TreeFlow answer = solve_tree(tree);
-    const double speed = 1.5e-6 / disc(3e-3), ratio = std::pow(3 / 1.2, 2);
-    EXPECT_NEAR(answer.inlet_pressure - healthy, 1.52 * 0.5 * rho * std::pow(ratio - 1, 2) * speed * speed, 1e-6);
-    // Lost behind the throat, not before.
-    EXPECT_NEAR(answer.pressure[0][30], answer.inlet_pressure - poiseuille(0.009, 3e-3) * 1.5e-6, 1e-6);
+TEST(TreeFlow, BloodThatRunsBackLosesAsMuch) {
+    TreeCase tree{{tube(-1, 0.03, 3e-3, 3e-3)}, blood, TreeFlowRate{-1e-6}, {TreePressure{0}}};
+    EXPECT_NEAR(solve_tree(tree).inlet_pressure, -poiseuille(0.03, 3e-3) * 1e-6, 1e-6);
 }
 
 TEST(TreeFlow, FlowsAddUpAndEveryEndHasItsLaw) {
@@ -134,10 +116,38 @@ TEST(TreeFlow, ATurnCostsAndStraightOnAtTheSameSpeedDoesNot) {
     TreeCase one{{tube(-1, 0.01, 3e-3, 3e-3)}, blood, TreeFlowRate{2e-6}, {TreePressure{0}}, 0};
     const double first = solve_tree(one).inlet_pressure;
     const double dynamic = 0.5 * rho * std::pow(2e-6 / disc(3e-3), 2);
-    EXPECT_GT(straight, 2 * first);
-    EXPECT_LT(straight, 2 * first + 0.5 * 1.25 * dynamic);   // nothing but friction and a share of an entrance
+    EXPECT_GT(straight, 2 * first + 0.05 * dynamic);   // friction and a part of an entrance, no more
+    EXPECT_LT(straight, 2 * first + 1.25 * dynamic);
     tree.branches[1].turn = pi / 2;
     EXPECT_NEAR(solve_tree(tree).inlet_pressure, straight + 2 * (1 - std::cos(0.375 * pi)) * dynamic, 1e-6);
+}
+
+TEST(TreeFlow, ASlowBranchRegainsPartOfWhatItsParentsSpeedIsWorth) {
+    // Straight on into twice the area. Borda and Carnot: rho U_b (U_p - U_b), less friction.
+    const double flow = 2e-6, parent_speed = flow / disc(3e-3), gain = rho * 0.5 * parent_speed * 0.5 * parent_speed;
+    const TreeCase tree{{tube(-1, 0.01, 3e-3, 3e-3), tube(0, 0.05, 3e-3 * std::sqrt(2), 3e-3 * std::sqrt(2))},
+                        blood,
+                        TreeFlowRate{flow},
+                        {TreePressure{0}, TreePressure{0}},
+                        0};
+    const TreeFlow answer = solve_tree(tree);
+    const auto& pressure = answer.pressure[1];
+    EXPECT_NEAR(pressure.front(), answer.pressure[0].back(), 1e-9);   // a jet has its parent's
+    const double regained = *std::max_element(pressure.begin(), pressure.end()) - pressure.front();
+    EXPECT_GT(regained, 0.25 * gain);
+    EXPECT_LT(regained, gain);
+    EXPECT_GT(answer.profile[1].front().speed[0], 2.4);   // 1.5 on the axis, over half of the area: 3, in a ring's mean
+    EXPECT_EQ(answer.profile[1].front().speed.back(), 0);
+}
+
+TEST(TreeFlow, AHairThinThroatLetsThroughWhatThePressureDrives) {   // the flow that it begins with is far too much for it
+    TreeBranch throat = tube(-1, 0.03, 3e-3, 3e-3, 301);
+    for (std::size_t k = 0; k < throat.arc.size(); ++k)
+        throat.area[k] *= std::pow(1 - 0.95 * std::exp(-std::pow((throat.arc[k] - 0.015) / 1e-3, 2)), 2);
+    const TreeFlow answer = solve_tree({{throat}, blood, TreePressure{10000}, {TreePressure{0}}, 0});
+    EXPECT_GT(answer.flow[0], 0);
+    EXPECT_LT(answer.flow[0], disc(0.15e-3) * std::sqrt(2 * 10000 / rho));
+    EXPECT_NEAR(answer.pressure[0].back(), 0, 1e-2);
 }
 
 TEST(TreeFlow, WhatCannotBeSolvedIsSaid) {
@@ -150,47 +160,6 @@ TEST(TreeFlow, WhatCannotBeSolvedIsSaid) {
     tree = make_y();
     tree.branches[1].parent = 2;
     EXPECT_THROW(solve_tree(tree), GeometryError);
-}
-
-/// The paper's bifurcation, whose finite-volume solution stands beside the project: areas along its branches, in and out.
-TEST(TreeFlow, TheReferenceBifurcationIsEstimated) {
-    std::ifstream file(std::string(PATENCY_SOURCE_DIR) +
-                       "/../shared/reference/coronary_bifurcation/finite_volume_before.json");
-    if (!file) GTEST_SKIP() << "../shared is not here";
-    const auto reference = nlohmann::json::parse(file);
-    TreeCase tree;
-    tree.blood = blood;
-    tree.inlet = TreeFlowRate{3.95995756e-6};
-    const auto add = [&](const char* name, int parent, double turn_degrees, double end_arc) {
-        TreeBranch b;
-        b.name = name, b.parent = parent, b.turn = turn_degrees * pi / 180;
-        for (const auto& s : reference["sections"][name]) {
-            const double arc = 1e-3 * double(s["arc_mm"]);
-            if (arc > 1e-3 * end_arc) break;
-            b.arc.push_back(arc), b.area.push_back(1e-6 * double(s["area_mm2"]));
-        }
-        tree.branches.push_back(std::move(b));
-    };
-    add("left_main", -1, 0, 9.5);
-    tree.branches[0].arc.insert(tree.branches[0].arc.begin(), 3e-3);   // the inlet plane
-    tree.branches[0].area.insert(tree.branches[0].area.begin(), disc(4e-3));
-    add("circumflex", 0, 60, 30);
-    add("anterior_descending", 0, 25, 36.5);
-    tree.branches[2].lesions.push_back({23e-3, 27e-3, disc(2e-3), disc(3.3e-3)});
-    add("medium_branch", 2, 30, 40);
-    add("small_branch", 2, 30, 40);
-    const auto& outlets = reference["outlets"];
-    tree.outlets = {TreePressure{0}, TreePressure{0}, TreePressure{0},
-                    TreeResistance{outlets["medium"]["resistance_pa_s_per_m3"]},
-                    TreeResistance{outlets["small"]["resistance_pa_s_per_m3"]}};
-    const TreeFlow answer = solve_tree(tree);
-    const auto& fv = reference["openings"];
-    const auto expect_flow = [&](const char* name, std::size_t branch) {
-        const double exact = fv[name]["flow_out_m3_per_s"];
-        EXPECT_NEAR(answer.flow[branch] / exact, 1, 0.15) << name;
-    };
-    expect_flow("outlet_large", 1), expect_flow("outlet_medium", 3), expect_flow("outlet_small", 4);
-    EXPECT_NEAR(answer.inlet_pressure / double(fv["inlet"]["mean_pressure_pa"]), 1, 0.15);
 }
 
 }   // namespace

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "patency/base/errors.h"
 #include "patency/config/deck.h"
@@ -93,6 +95,42 @@ TEST(Estimate, TheBandHoldsTheEstimateAndTheNarrowerLumenIsWorse) {
     EXPECT_GT(band.lesion_ffr[0].high, *e.lesions[0].ffr);
     EXPECT_LT(*estimate_flow(config, severe(), {1, -0.1e-3, 0}).lesions[0].ffr, *e.lesions[0].ffr);
     EXPECT_LT(*estimate_flow(config, severe(), {1.1, 0, 0}).lesions[0].ffr, *e.lesions[0].ffr);
+}
+
+/// What stands beside the project, if it does.
+std::optional<nlohmann::json> finite_volumes(const char* name) {
+    std::ifstream file(std::filesystem::path(PATENCY_SOURCE_DIR) / "../shared/reference" / name);
+    return file ? std::optional(nlohmann::json::parse(file)) : std::nullopt;
+}
+
+TEST(Estimate, TheBifurcationsFlowsAndPressureAreNearFiniteVolumes) {
+    const auto reference = finite_volumes("coronary_bifurcation/finite_volume_before.json");
+    if (!reference) GTEST_SKIP() << "../shared is not here";
+    const Estimate e = estimate_flow(deck_of(), bifurcation());
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::string name = bifurcation().openings[k].opening.name;
+        EXPECT_NEAR(e.opening_flows[k] / double((*reference)["openings"][name]["flow_out_m3_per_s"]), 1, 0.06) << name;
+    }
+    EXPECT_NEAR(e.opening_pressures[0] / double((*reference)["openings"]["inlet"]["mean_pressure_pa"]), 1, 0.03);
+    const double before = (*reference)["sections"]["anterior_descending"][4]["mean_pressure_pa"],
+                 behind = (*reference)["sections"]["anterior_descending"][14]["mean_pressure_pa"];
+    EXPECT_NEAR(e.lesions[0].drop / (before - behind), 1, 0.1);
+}
+
+TEST(Estimate, APatientsTreeLosesWhatFiniteVolumesSayToEveryOutlet) {
+    const auto reference = finite_volumes("left_coronary_tree/finite_volume.json");
+    if (!reference) GTEST_SKIP() << "../shared is not here";
+    const deck::Case config = deck::read_case(std::filesystem::path(PATENCY_SOURCE_DIR) / "cases/verify/cells_left_coronary_tree.yaml", {});
+    const Vessel vessel = read_vessel(config);
+    const Estimate e = estimate_flow(config, vessel);
+    int compared = 0;
+    for (std::size_t k = 1; k < vessel.openings.size(); ++k)
+        for (const auto& [cap, o] : (*reference)["openings"].items())
+            if (norm(vessel.openings[k].opening.centre - 1e-3 * Vec3{o["centre_mm"][0], o["centre_mm"][1], o["centre_mm"][2]}) < 0.5e-3) {
+                EXPECT_NEAR((e.opening_pressures[0] - e.opening_pressures[k]) / double(o["drop_from_inlet_pa"]), 1, 0.08) << cap;
+                ++compared;
+            }
+    EXPECT_EQ(compared, 6);
 }
 
 TEST(Estimate, SaysWhichOpeningTheDeckForgot) {

@@ -46,10 +46,6 @@ std::vector<TreeBranch> branches_of(const VesselAlong& along, const EstimateChan
         }
         branches.push_back(std::move(branch));
     }
-    for (const Lesion& lesion : along.assessment.lesions)
-        branches[lesion.branch].lesions.push_back({lesion.throat_arc, lesion.end_arc,
-                                                   changed(lesion.minimum_area, change.diameter),
-                                                   changed(lesion.interpolated.area, change.diameter)});
     return branches;
 }
 

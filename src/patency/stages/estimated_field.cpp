@@ -24,7 +24,7 @@ EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
             const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, tree.arc.size() - 1);
             const double mean = estimate.flow.flow[b] / tree.area[k];
             const double slope = (pressure[after] - pressure[before]) / (tree.arc[after] - tree.arc[before]);
-            stations_.push_back({b, p.place, p.tangent, p.radius, mean, pressure[k], slope});
+            stations_.push_back({b, p.place, p.tangent, p.radius, mean, estimate.flow.profile[b][k], pressure[k], slope});
             // No streamline gains more than its pressure loses (Bernoulli): a jet's profile is flatter than a parabola.
             const double bernoulli = std::sqrt(at_inlet * at_inlet + 2 * std::max(0.0, estimate.flow.inlet_pressure - pressure[k]) / rho);
             largest_speed_ = std::max(largest_speed_, std::min(2 * std::abs(mean), bernoulli));
@@ -90,7 +90,7 @@ EstimatedField::Value EstimatedField::at(const Vec3& x, double depth) const {
     // The place may lie between two stations: their pressures join.
     const double ahead = dot(x - s.place, s.tangent);
     const double reach = 0.5 * s.radius;   // stations are no farther apart
-    return {2 * s.mean_velocity * (1 - share * share) * s.tangent, s.pressure + std::clamp(ahead, -reach, reach) * s.slope,
+    return {s.mean_velocity * s.profile.at(share) * s.tangent, s.pressure + std::clamp(ahead, -reach, reach) * s.slope,
             std::abs(ahead) < reach ? s.slope * s.tangent : Vec3{}};
 }
 

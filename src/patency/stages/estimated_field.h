@@ -9,8 +9,8 @@
 
 namespace patency {
 
-/// The flow of the branch that a place lies in, as a parabola over its distance to the wall, along the centreline; the
-/// pressure of the station beside it. Continuous along a branch, not across a bifurcation.              THEORY.md (15.5)
+/// The flow of the branch that a place lies in, with the profile of the station beside it over the distance to the wall, along
+/// the centreline; and that station's pressure. Continuous along a branch, not across a bifurcation.              THEORY.md (15.5)
 class EstimatedField {
 public:
     /// Of a vessel that was followed and its estimate; keeps neither.
@@ -33,6 +33,7 @@ private:
         Vec3 place, tangent;
         double radius;           // of the largest sphere [m]
         double mean_velocity;    // [m/s]
+        TreeProfile profile;
         double pressure, slope;  // [Pa], along the tangent [Pa/m]
     };
     std::size_t nearest(const Vec3& place) const;

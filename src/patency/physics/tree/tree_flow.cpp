@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,10 +16,8 @@ namespace patency {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Young & Tsai 1973: the share of the jet's dynamic pressure that is lost behind a lesion.          THEORY.md (15.3)
-constexpr double expansion_loss = 1.52;
-// Blood that turns into a branch brings part of its parent's profile: half of the excess of a flat one. Between none and
-// all of it lies the pressure drop of the large branch of the reference bifurcation (tests/physics/tree_flow_test.cpp).
+// A branch begins between plug and parabola: the carina cuts its parent's stream where it is fast, and a new boundary layer
+// grows from there. Half of each loses most nearly what finite volumes do in two trees (tests/stages/estimate_test.cpp).
 constexpr double branch_entrance = 0.5;
 
 double diameter(double area) { return std::sqrt(4 * area / pi); }
@@ -58,43 +57,48 @@ std::vector<double> summed(const TreeCase& tree, const Topology& t, const Eigen:
     return flow;
 }
 
-double dynamic_pressure(double density, double speed) { return 0.5 * density * speed * std::abs(speed); }
-
-/// What is lost between the parent's end and the branch's beginning (Hager 1984: momentum along the turned stream).
-double junction_loss(double density, double parent_speed, double speed, double turn) {
-    if (parent_speed == 0) return 0;
-    const double ratio = speed / parent_speed;
-    const double share = 1 + ratio * ratio - 2 * ratio * std::cos(0.75 * turn);   // THEORY.md (15.4)
-    return share * dynamic_pressure(density, parent_speed);
+/// Blood begins with `first` where it runs on; where it runs back it comes from the other end, as a parabola.
+ProfileAlong branch_along(const TreeBlood& blood, const TreeBranch& branch, double flow, const TreeProfile& first) {
+    if (flow >= 0) return march_profile(blood, branch.arc, branch.area, flow, first);
+    std::vector<double> arc(branch.arc.rbegin(), branch.arc.rend()), area(branch.area.rbegin(), branch.area.rend());
+    for (double& s : arc) s = branch.arc.back() - s;
+    ProfileAlong along = march_profile(blood, arc, area, -flow, TreeProfile::between(0));
+    std::reverse(along.pressure.begin(), along.pressure.end());
+    std::reverse(along.profile.begin(), along.profile.end());
+    const double begin = along.pressure.front();
+    for (double& p : along.pressure) p -= begin;
+    return along;
 }
 
-/// Loss of total pressure up to every station of a branch.
-std::vector<double> branch_losses(const TreeCase& tree, const TreeBranch& branch, double flow, double entrance) {
-    const double density = tree.blood.density;
-    std::vector<double> loss(branch.arc.size(), 0.0);
-    const auto viscosity = [&](double area) {
-        return tree.blood.viscosity_at(8 * std::abs(flow) / (area * diameter(area)));   // at the wall of a parabola
-    };
-    const auto friction = [&](std::size_t k) {   // THEORY.md (15.1)
-        return 8 * pi * viscosity(branch.area[k]) * flow / (branch.area[k] * branch.area[k]);
-    };
-    const double begin = branch.area.front(), speed = flow / begin;
-    const double reynolds = density * std::abs(speed) * diameter(begin) / viscosity(begin);
-    for (std::size_t k = 1; k < loss.size(); ++k)
-        loss[k] = loss[k - 1] + 0.5 * (friction(k - 1) + friction(k)) * (branch.arc[k] - branch.arc[k - 1]);
-    for (std::size_t k = 1; k < loss.size(); ++k) {
-        const double arc = branch.arc[k];
-        if (reynolds > 0)
-            loss[k] += entrance * dynamic_pressure(density, speed) *
-                       entrance_excess((arc - branch.arc.front()) / (diameter(begin) * reynolds));
-        for (const TreeLesion& lesion : branch.lesions) {   // THEORY.md (15.3)
-            const double widening = std::max(lesion.end_arc - lesion.throat_arc, 1e-12);
-            const double reached = std::clamp((arc - lesion.throat_arc) / widening, 0.0, 1.0);
-            const double jet = std::max(0.0, lesion.reference_area / lesion.throat_area - 1);
-            loss[k] += reached * expansion_loss * jet * jet * dynamic_pressure(density, flow / lesion.reference_area);
+/// What a branch begins with at its parent's end: the pressure that momentum along the turned stream leaves (Hager 1984), and a
+/// profile. A branch that takes its stream slower than it comes begins with a jet, whose pressure comes back as it spreads.
+struct BranchBegin {
+    double pressure;
+    TreeProfile profile;
+};
+BranchBegin branch_begin(double density, double pressure, double parent_speed, double speed, double turn) {   // THEORY.md (15.4)
+    const TreeProfile profile = TreeProfile::between(branch_entrance);
+    const double stream = parent_speed * std::cos(0.75 * turn);
+    if (!(speed > 0)) return {pressure, profile};   // runs back into its parent
+    if (speed < stream) return {pressure, profile.as_jet(speed / stream)};
+    return {pressure - density * speed * (speed - stream), profile};
+}
+
+/// Static pressures and profiles of all branches for flows that are given.
+std::vector<ProfileAlong> march_tree(const TreeCase& tree, const std::vector<double>& flows, double inlet_pressure) {
+    std::vector<ProfileAlong> along;
+    for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+        const TreeBranch& branch = tree.branches[b];
+        BranchBegin begin{inlet_pressure, TreeProfile::between(tree.inlet_entrance)};
+        if (branch.parent >= 0) {
+            const auto p = std::size_t(branch.parent);
+            begin = branch_begin(tree.blood.density, along[p].pressure.back(), flows[p] / tree.branches[p].area.back(),
+                                 flows[b] / branch.area.front(), branch.turn);
         }
+        along.push_back(branch_along(tree.blood, branch, flows[b], begin.profile));
+        for (double& p : along.back().pressure) p += begin.pressure;
     }
-    return loss;
+    return along;
 }
 
 /// Pressure over flow of a leaf that must be: residual of its end's law.
@@ -104,37 +108,47 @@ double mismatch(const TreeEnd& end, double pressure, double flow) {
     return pressure - r.distal_pressure - r.resistance * flow;
 }
 
-}   // namespace
-
-double entrance_excess(double x) {
-    if (!(x > 0)) return 0;
-    const double root = std::sqrt(x);
-    const double apparent = (16 + 0.3125 / x - 3.44 / root) / (1 + 0.00021 / (x * x)) + 3.44 / root;   // f Re
-    return 4 * (apparent - 16) * x;
-}
-
-std::vector<std::vector<double>> tree_pressures(const TreeCase& tree, const std::vector<double>& flows,
-                                                double inlet_pressure) {
-    const double density = tree.blood.density;
-    std::vector<std::vector<double>> pressure(tree.branches.size());
-    std::vector<double> total_at_end(tree.branches.size());
-    for (std::size_t b = 0; b < tree.branches.size(); ++b) {
-        const TreeBranch& branch = tree.branches[b];
-        const double speed = flows[b] / branch.area.front();
-        double total = inlet_pressure + dynamic_pressure(density, speed);
-        if (branch.parent >= 0) {
-            const auto p = std::size_t(branch.parent);
-            const double parent_speed = flows[p] / tree.branches[p].area.back();
-            total = total_at_end[p] - junction_loss(density, parent_speed, speed, branch.turn);
-        }
-        const auto loss =
-            branch_losses(tree, branch, flows[b], branch.parent < 0 ? tree.inlet_entrance : branch_entrance);
-        for (std::size_t k = 0; k < loss.size(); ++k)
-            pressure[b].push_back(total - loss[k] - dynamic_pressure(density, flows[b] / branch.area[k]));
-        total_at_end[b] = total - loss.back();
+/// How the equations of leaves and inlet answer to the leaves' flows and the inlet's pressure, if every branch answers to its own
+/// flow as it does when all flows grow in proportion: exact for one branch, near enough for a tree to begin with.
+Eigen::MatrixXd end_slopes(const TreeCase& tree, const Topology& t, const std::vector<double>& flows) {
+    constexpr double more = 1e-4;
+    std::vector<double> raised = flows;
+    for (double& q : raised) q *= 1 + more;
+    const auto at = march_tree(tree, flows, 0), above = march_tree(tree, raised, 0);
+    std::vector<double> resistance(flows.size(), 0.0);   // d drop / d flow of a branch, its junction with it
+    const auto n = Eigen::Index(t.leaves.size());
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(n + 1, n + 1);
+    for (std::size_t b = 0; b < flows.size(); ++b) {
+        const int parent = tree.branches[b].parent;
+        const auto drop_grows = [&](std::size_t k) { return at[k].pressure.back() - above[k].pressure.back(); };
+        const double own = drop_grows(b) - (parent < 0 ? 0 : drop_grows(std::size_t(parent)));
+        if (flows[b] != 0) resistance[b] = own / (more * flows[b]);
     }
-    return pressure;
+    const auto path_of = [&](std::size_t b) {
+        std::vector<std::size_t> path{b};
+        while (tree.branches[path.back()].parent >= 0) path.push_back(std::size_t(tree.branches[path.back()].parent));
+        return path;
+    };
+    for (Eigen::Index k = 0; k < n; ++k) {
+        const std::size_t leaf = t.leaves[std::size_t(k)];
+        const TreeEnd& end = tree.outlets[leaf];
+        if (std::holds_alternative<TreeFlowRate>(end)) {
+            slopes(k, k) = 1;
+            continue;
+        }
+        const auto path = path_of(leaf);
+        for (Eigen::Index j = 0; j < n; ++j)
+            for (std::size_t b : path_of(t.leaves[std::size_t(j)]))
+                if (std::find(path.begin(), path.end(), b) != path.end()) slopes(k, j) -= resistance[b];
+        if (const auto* r = std::get_if<TreeResistance>(&end)) slopes(k, k) -= r->resistance;
+        slopes(k, n) = 1;
+    }
+    if (std::holds_alternative<TreeFlowRate>(tree.inlet)) slopes.row(n).head(n).setOnes();
+    else slopes(n, n) = 1;
+    return slopes;
 }
+
+}   // namespace
 
 TreeFlow solve_tree(const TreeCase& tree) {
     const Topology t = topology_of(tree);
@@ -154,13 +168,13 @@ TreeFlow solve_tree(const TreeCase& tree) {
     // Unknown: the leaves' flows and the pressure at the inlet.
     const auto residual = [&](const Eigen::VectorXd& x) {
         const auto flows = summed(tree, t, x.head(leaves));
-        const auto pressures = tree_pressures(tree, flows, x[leaves]);
+        const auto along = march_tree(tree, flows, x[leaves]);
         Eigen::VectorXd r(leaves + 1);
         for (Eigen::Index k = 0; k < leaves; ++k) {
             const std::size_t leaf = t.leaves[std::size_t(k)];
             const TreeEnd& end = tree.outlets[leaf];
             const auto* given = std::get_if<TreeFlowRate>(&end);
-            r[k] = given ? x[k] - given->flow : mismatch(end, pressures[leaf].back(), flows[leaf]);
+            r[k] = given ? x[k] - given->flow : mismatch(end, along[leaf].pressure.back(), flows[leaf]);
         }
         r[leaves] = inlet_flow ? flows[0] - inlet_flow->flow : x[leaves] - inlet_pressure->pressure;
         return r;
@@ -186,36 +200,49 @@ TreeFlow solve_tree(const TreeCase& tree) {
             std::holds_alternative<TreeFlowRate>(tree.outlets[t.leaves[std::size_t(k)]]) ? flow_size : pressure_size;
     row_size[leaves] = inlet_flow ? flow_size : pressure_size;
 
-    TreeFlow answer;
+    // Broyden's method: slopes from the branches once, then from the steps themselves. A march is dear, a small system is not.
     const auto scaled = [&](const Eigen::VectorXd& r) { return Eigen::VectorXd(r.cwiseQuotient(row_size)); };
+    const auto slopes = [&](const Eigen::VectorXd& at) {
+        return Eigen::MatrixXd(row_size.cwiseInverse().asDiagonal() *
+                               end_slopes(tree, t, summed(tree, t, at.head(leaves))));
+    };
+    TreeFlow answer;
     Eigen::VectorXd r = scaled(residual(x));
+    Eigen::MatrixXd jacobian = slopes(x);
+    for (int halvings = 0; !(r.allFinite() && jacobian.allFinite()) && halvings < 60; ++halvings) {   // too much for a throat
+        x.head(leaves) *= 0.5;
+        r = scaled(residual(x)), jacobian = slopes(x);
+    }
+    bool is_fresh = true;
     constexpr int most = 200;
-    constexpr double tolerance = 1e-11;
+    constexpr double tolerance = 1e-10;
     for (; r.lpNorm<Eigen::Infinity>() > tolerance && answer.iterations < most; ++answer.iterations) {
-        Eigen::MatrixXd jacobian(leaves + 1, leaves + 1);
-        for (Eigen::Index k = 0; k <= leaves; ++k) {
-            const double step = 1e-6 * (k < leaves ? flow_size : pressure_size);
-            Eigen::VectorXd more = x, less = x;
-            more[k] += step, less[k] -= step;
-            jacobian.col(k) = (scaled(residual(more)) - scaled(residual(less))) / (2 * step);
-        }
         const Eigen::VectorXd change = jacobian.fullPivLu().solve(-r);
         double share = 1;
         Eigen::VectorXd next = x + change, next_r = scaled(residual(next));
-        while (!(next_r.norm() < r.norm()) && share > 1e-6) {
+        while (!(next_r.norm() < r.norm()) && share > (is_fresh ? 1e-6 : 0.2)) {
             share *= 0.5;
             next = x + share * change;
             next_r = scaled(residual(next));
         }
-        if (!(next_r.norm() < r.norm())) break;   // round-off, or stuck: judged below
-        x = next, r = next_r;
+        if (next_r.norm() < r.norm()) {
+            const Eigen::VectorXd step = share * change;
+            jacobian += (next_r - (1 - share) * r) * step.transpose() / step.squaredNorm();
+            x = next, r = next_r, is_fresh = false;
+        } else {
+            if (is_fresh) break;   // round-off, or stuck: judged below
+            jacobian = slopes(x), is_fresh = true;
+        }
     }
     if (!(r.lpNorm<Eigen::Infinity>() < 1e-6))
         throw GeometryError(
             "no steady flow through the tree agrees with its ends; look for a branch that is nearly closed");
     answer.flow = summed(tree, t, x.head(leaves));
     answer.inlet_pressure = x[leaves];
-    answer.pressure = tree_pressures(tree, answer.flow, answer.inlet_pressure);
+    for (ProfileAlong& along : march_tree(tree, answer.flow, answer.inlet_pressure)) {
+        answer.pressure.push_back(std::move(along.pressure));
+        answer.profile.push_back(std::move(along.profile));
+    }
     return answer;
 }
 
