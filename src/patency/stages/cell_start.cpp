@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/cell_start.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "patency/stages/cell_scene.h"
 
 namespace patency {
@@ -26,10 +29,18 @@ CellStart::CellStart(const Scene& scene)
 
 CellStart::~CellStart() = default;
 
+Vec3 CellStart::within(const Vec3& place) const {
+    for (const OpenEnd& end : scene_.ends) {
+        const double cell = 2 * std::sqrt(end.area / std::numbers::pi) / cells_across, beyond = end.axial(place) + cell;
+        if (beyond > 0 && end.in_reach(place)) return place - beyond * end.normal;
+    }
+    return place;
+}
+
 std::vector<Vec3> CellStart::velocities(std::span<const Vec3> places) const {
     std::vector<Vec3> mean(places.size()), around(places.size());
     for (const Vec3& d : ways_around(scene_.numerics.spacing)) {
-        for (std::size_t i = 0; i < places.size(); ++i) around[i] = places[i] + d;
+        for (std::size_t i = 0; i < places.size(); ++i) around[i] = within(places[i] + d);
         const CellFields fields = solved_->balance->fields_at(around);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (scene_.lumen.distance.value(around[i]) < 0) mean[i] += fields.velocity[i] / 6;   // the wall rests

@@ -39,6 +39,10 @@ public:
     std::size_t cells() const;
 
 private:
+    // Beside an opening cells lie on one side of a place only, and what they say there carries up to 5 % too little: the flow a cell
+    // within goes on as it is.
+    Vec3 within(const Vec3& place) const;
+
     const Scene& scene_;
     std::unique_ptr<const CellScene> solved_;
     std::vector<CellEndState> ends_;

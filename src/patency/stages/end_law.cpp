@@ -251,7 +251,6 @@ double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time,
         const double flow = ends[k].flow;
         if (law.outlet && law.is_started && time > law.known_until)
             law.state = advanced(*law.outlet, law.state, {law.known_until, time - law.known_until}, law.known_flow, flow);
-        if (!law.is_started) absorber.mean = flow;
         law.known_until = time;
         law.known_flow = flow;
         law.is_started = true;

@@ -24,7 +24,9 @@ EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
             const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, tree.arc.size() - 1);
             const double mean = estimate.flow.flow[b] / tree.area[k];
             const double slope = (pressure[after] - pressure[before]) / (tree.arc[after] - tree.arc[before]);
-            stations_.push_back({b, p.place, p.tangent, p.radius, mean, estimate.flow.profile[b][k], pressure[k], slope});
+            const bool is_within = first + k > branch.first && first + k < branch.last;
+            const double reach = is_within ? 0.5 * (tree.arc[after] - tree.arc[before]) : 0;
+            stations_.push_back({b, p.place, p.tangent, p.radius, mean, estimate.flow.profile[b][k], pressure[k], slope, reach});
             // No streamline gains more than its pressure loses (Bernoulli): a jet's profile is flatter than a parabola.
             const double bernoulli = std::sqrt(at_inlet * at_inlet + 2 * std::max(0.0, estimate.flow.inlet_pressure - pressure[k]) / rho);
             largest_speed_ = std::max(largest_speed_, std::min(2 * std::abs(mean), bernoulli));
@@ -82,6 +84,18 @@ std::size_t EstimatedField::nearest(const Vec3& x) const {
     const auto square = [&](const Station& s) { return dot(x - s.place, x - s.place); };
     const std::size_t branch = stations_[least_of([&](const Station& s) { return square(s) - s.radius * s.radius; })].branch;
     return least_of([&](const Station& s) { return s.branch == branch ? square(s) : std::numeric_limits<double>::infinity(); });
+}
+
+std::vector<double> EstimatedField::carried(std::span<const Vec3> places, std::span<const Vec3> velocities, double volume) const {
+    std::vector<double> flow, length;
+    for (const Station& s : stations_) {
+        flow.resize(std::max(flow.size(), s.branch + 1)), length.resize(flow.size());
+        length[s.branch] += s.reach;
+    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (const Station& s = stations_[nearest(places[i])]; s.reach > 0) flow[s.branch] += volume * dot(velocities[i], s.tangent);
+    for (std::size_t b = 0; b < flow.size(); ++b) flow[b] = length[b] > 0 ? flow[b] / length[b] : 0;
+    return flow;
 }
 
 EstimatedField::Value EstimatedField::at(const Vec3& x, double depth) const {

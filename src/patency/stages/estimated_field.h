@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "patency/stages/estimate.h"
@@ -24,6 +25,12 @@ public:
     /// At a place [m] that is `depth` [m] away from the wall.
     Value at(const Vec3& place, double depth) const;
 
+    /// The branch that a place lies in.
+    std::size_t branch_at(const Vec3& place) const { return stations_[nearest(place)].branch; }
+    /// What places carry along every branch [m^3/s], each of which stands for `volume` [m^3] at its velocity [m/s]: the mean over the
+    /// branch's length between its bifurcations and ends. 0 of a branch too short to tell.
+    std::vector<double> carried(std::span<const Vec3> places, std::span<const Vec3> velocities, double volume) const;
+
     double largest_speed() const { return largest_speed_; }         ///< on an axis [m/s]
     double pressure_range() const { return highest_ - lowest_; }   ///< [Pa]
 
@@ -35,6 +42,7 @@ private:
         double mean_velocity;    // [m/s]
         TreeProfile profile;
         double pressure, slope;  // [Pa], along the tangent [Pa/m]
+        double reach;            // what it stands for of a tube; 0 at its ends and in bifurcations [m]
     };
     std::size_t nearest(const Vec3& place) const;
     std::array<long, 3> box_of(const Vec3& place) const;

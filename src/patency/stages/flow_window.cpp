@@ -90,9 +90,9 @@ WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, do
 double probable_end(const Scene& scene) {
     const deck::Case& config = scene.config;
     if (!does_slide(scene)) return config.numerics.duration;
-    // Windows until two agreed, of seven flows: 2.5 to 3.5 from the flow on cells, 4.5 and 5 from the estimate, 7.5 and 8 from rest.
+    // Windows until two agreed, of eight flows: 2.5 to 3.5 from the flow on cells, 2.5 from the estimate, 7.5 and 8 from rest.
     const auto start = config.initial_velocity();
-    const double windows = start == deck::InitialVelocity::cells ? 3 : start == deck::InitialVelocity::estimate ? 5 : 8;
+    const double windows = start == deck::InitialVelocity::cells || start == deck::InitialVelocity::estimate ? 3 : 8;
     return std::min(windows * window_length(scene), config.numerics.duration);
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -76,6 +77,14 @@ std::shared_ptr<const EstimatedField> estimated_field(const Scene& scene) {
     return std::make_shared<const EstimatedField>(*scene.vessel, *scene.estimate);
 }
 
+/// A pulse starts where its inflow does.
+double share_of_estimate(const Scene& scene) {
+    double now = 0, mean = 0;
+    for (const EndLaw& law : scene.laws)
+        if (law.prescribes_flow()) now += law.signal(0), mean += law.signal.waveform.mean();
+    return std::abs(mean) > 0 ? now / mean : 1;
+}
+
 VectorField velocity_field(const Scene& scene) {
     const deck::Initial& initial = scene.config.initial;
     const double speed = initial.speed.value_or(0);
@@ -105,12 +114,7 @@ VectorField velocity_field(const Scene& scene) {
         case deck::InitialVelocity::womersley: return womersley_field(scene);
         case deck::InitialVelocity::cells: break;   // all places at once
         case deck::InitialVelocity::estimate: {
-            // A pulse starts where its inflow does.
-            double now = 0, mean = 0;
-            for (const EndLaw& law : scene.laws)
-                if (law.prescribes_flow()) now += law.signal(0), mean += law.signal.waveform.mean();
-            const double share = std::abs(mean) > 0 ? now / mean : 1;
-            const auto at = [=, &scene, field = estimated_field(scene)](const Vec3& x) {
+            const auto at = [&scene, share = share_of_estimate(scene), field = estimated_field(scene)](const Vec3& x) {
                 return share * field->at(x, -scene.lumen.distance.value(x)).velocity;
             };
             return mean_over_cell(at, scene.numerics.spacing);
@@ -176,6 +180,33 @@ void fall_back(Scene& scene, const Error& error) {
     scene.start_remark = fmt::format("starts from the estimate, for on cells: {}", error.what());
 }
 
+/// Flows along the branches, from those out of the ends [m^3/s].
+std::vector<double> branch_flows(const Scene& scene, const std::vector<double>& out) {
+    const BranchedLines& lines = scene.vessel->along->lines;
+    std::vector<double> flows;
+    for (const Branch& branch : lines.branches) {
+        flows.push_back(0);
+        for (std::size_t line : branch.lines)
+            for (std::size_t k = 0; k < out.size(); ++k)
+                if (scene.ends[k].name == lines.lines[line].outlet) flows.back() += out[k];
+    }
+    return flows;
+}
+
+/// Velocities of places between those where they are known carry a per cent more or less than is known to flow, and so do profiles over the
+/// distance to the wall of a section that is not round. Sound would have to take it away, and leaves the flow swinging for as long
+/// as blood needs through the vessel. So every branch's velocities are scaled to what it carries.         THEORY.md (15.6)
+void scale_to_flows(Scene& scene, const std::vector<double>& out) {
+    FluidParticles& fluid = scene.fluid;
+    const std::vector<double> flows = branch_flows(scene, out);
+    const EstimatedField field(*scene.vessel, *scene.estimate);
+    const std::vector<double> carried = field.carried({&fluid.position[0], fluid.size()}, {&fluid.velocity[0], fluid.size()}, fluid.volume[0]);
+    constexpr double most = 1.25;   // where more lacks something else is wrong
+    std::vector<double> share;
+    for (std::size_t b = 0; b < flows.size(); ++b) share.push_back(flows[b] * carried[b] > 0 ? std::clamp(flows[b] / carried[b], 1 / most, most) : 1);
+    for (std::size_t i = 0; i < fluid.size(); ++i) fluid.velocity[i] *= share[field.branch_at(fluid.position[i])];
+}
+
 /// The flow on cells, where the case starts from it; else none. Outlets' capacitors begin as it leaves them.
 std::unique_ptr<const CellStart> solve_on_cells(Scene& scene, const SolveOnCells& solve) {
     const bool is_wanted = scene.config.initial_velocity() == deck::InitialVelocity::cells || scene.config.initial_pressure() == deck::InitialPressure::cells;
@@ -190,6 +221,21 @@ std::unique_ptr<const CellStart> solve_on_cells(Scene& scene, const SolveOnCells
     } catch (const Error& error) {
         fall_back(scene, error);
         return nullptr;
+    }
+}
+
+/// What departs from these is sound.
+void start_ends(Scene& scene, const std::vector<double>& pressures, const std::vector<double>& out) {
+    find_members(scene.fluid, scene.numerics.spacing, scene.ends);
+    for (std::size_t k = 0; k < scene.ends.size(); ++k) {
+        OpenEnd& end = scene.ends[k];
+        end.mean_pressure = pressures[k] - scene.reference_pressure;   // where a flow is imposed
+        if (scene.laws[k].prescribes_flow()) {
+            end.absorber.mean = pressures[k];
+            continue;
+        }
+        measure_flow(end, scene.fluid, 0, 0);
+        end.absorber.mean = out.empty() ? end.flow : out[k];
     }
 }
 
@@ -208,18 +254,23 @@ void compute_initial_state(Scene& scene, const SolveOnCells& solve) {
         fluid.pressure_rate[i] = 0;
         fluid.viscosity[i] = scene.material.viscosity;
     }
-    for (OpenEnd& end : scene.ends) end.absorber.mean = pressure.value(end.centre);   // what is heard there is a departure from this
     const std::span<const Vec3> places(&fluid.position[0], fluid.size());
+    std::vector<double> end_pressures, out;   // what the start says of the ends; of flows, if it does
+    for (const OpenEnd& end : scene.ends) end_pressures.push_back(pressure.value(end.centre));
     if (scene.config.initial_velocity() == deck::InitialVelocity::cells) {
         const std::vector<Vec3> solved = on_cells->velocities(places);
         for (std::size_t i = 0; i < fluid.size(); ++i) fluid.velocity[i] = solved[i];
+        for (const CellEndState& end : on_cells->ends()) out.push_back(end.flow);
     }
+    if (scene.config.initial_velocity() == deck::InitialVelocity::estimate)
+        for (double flow : scene.estimate->opening_flows) out.push_back(share_of_estimate(scene) * flow);
     if (scene.config.initial_pressure() == deck::InitialPressure::cells) {
         const std::vector<double> solved = on_cells->pressures(places);
         for (std::size_t i = 0; i < fluid.size(); ++i) fluid.pressure[i] = solved[i] - scene.reference_pressure;
-        for (std::size_t k = 0; k < scene.ends.size(); ++k) scene.ends[k].absorber.mean = on_cells->ends()[k].pressure;
+        for (std::size_t k = 0; k < scene.ends.size(); ++k) end_pressures[k] = on_cells->ends()[k].pressure;
     }
-    for (OpenEnd& end : scene.ends) end.mean_pressure = end.absorber.mean - scene.reference_pressure;   // where a flow is imposed
+    if (!out.empty()) scale_to_flows(scene, out);
+    start_ends(scene, end_pressures, out);
     if (scene.config.scheme() != deck::SchemeName::paper) return;
     // The paper's scheme sums densities: its particles must weigh what their pressure says.
     const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
