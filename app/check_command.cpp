@@ -7,7 +7,6 @@
 #include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
-#include "solid_runner.h"
 #include "patency/stages/build.h"
 #include "patency/stages/cell_plan.h"
 #include "patency/stages/cell_start.h"
@@ -15,6 +14,7 @@
 #include "patency/stages/disk_plan.h"
 #include "patency/stages/plan.h"
 #include "patency/stages/stopwatch.h"
+#include "solid_runner.h"
 
 namespace patency::app {
 
@@ -26,7 +26,9 @@ std::string readable_time(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-std::string readable_size(double bytes) { return bytes < 995e6 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9); }
+std::string readable_size(double bytes) {
+    return bytes < 995e6 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
 
 /// What a flow costs, alone.
 struct FlowCost {
@@ -38,17 +40,21 @@ struct FlowCost {
 void print_cost(const FlowCost& cost) {
     fmt::print("  memory, disk         about {}, {}\n", readable_size(cost.memory), readable_size(cost.disk));
     fmt::print("  expected time        about {} on {} threads", readable_time(cost.seconds), cost.threads);
-    if (cost.longest_seconds > 1.1 * cost.seconds) fmt::print(" if the flow settles soon, {} at the longest", readable_time(cost.longest_seconds));
+    if (cost.longest_seconds > 1.1 * cost.seconds)
+        fmt::print(" if the flow settles soon, {} at the longest", readable_time(cost.longest_seconds));
     fmt::print("\n");
-    if (cost.across < 12) fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
+    if (cost.across < 12)
+        fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
 }
 
 void print_cell_plan(const std::string& path, const CellPlan& plan) {
     fmt::print("{}: the deck is right\n", path);
-    fmt::print("  scheme               cells: a {} flow through a rigid lumen, on particles that stand still\n", plan.steps > 0 ? "periodic" : "steady");
+    fmt::print("  scheme               cells: a {} flow through a rigid lumen, on particles that stand still\n",
+               plan.steps > 0 ? "periodic" : "steady");
     if (plan.steps > 0) fmt::print("  steps in time        {:.0f}\n", plan.steps);
     fmt::print("  spacing              {:.3g} to {:.3g} mm\n", 1e3 * plan.finest, 1e3 * plan.coarsest);
-    fmt::print("  cells                about {:.3g}; {:.1f} across the narrowest place\n", plan.cells, plan.across_narrowest);
+    fmt::print("  cells                about {:.3g}; {:.1f} across the narrowest place\n", plan.cells,
+               plan.across_narrowest);
 }
 
 void print_flow_plan(const std::string& path, const FlowPlan& plan) {
@@ -56,19 +62,26 @@ void print_flow_plan(const std::string& path, const FlowPlan& plan) {
     fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", plan.reynolds);
     fmt::print("  largest speed        {:.3g} m/s\n", plan.speed);
     fmt::print("  sound speed          {:.3g} m/s\n", plan.sound_speed);
-    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, about {:.3g} acoustic steps\n", plan.advection_step, plan.acoustic_step, plan.acoustic_steps);
-    fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n", plan.fluid_particles, plan.wall_particles,
-               plan.across_narrowest);
+    fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, about {:.3g} acoustic steps\n",
+               plan.advection_step, plan.acoustic_step, plan.acoustic_steps);
+    fmt::print("  particles            about {:.3g} of blood, {:.3g} of wall; {:.1f} across the narrowest place\n",
+               plan.fluid_particles, plan.wall_particles, plan.across_narrowest);
 }
 
 void print_deploy_plan(const deck::Case& config, const DeployPlan& plan, int threads) {
     const StentPlace& place = plan.place;
-    fmt::print("  stent                {:.4g} x {:.4g} mm, opened to {:.4g} mm, along {:.4g} to {:.4g} mm from the inlet\n", 1e3 * place.pattern.diameter,
-               1e3 * place.pattern.length, 1e3 * place.diameter, 1e3 * place.start_arc(), 1e3 * place.end_arc());
-    fmt::print("  lumen there          {:.3g} mm at its narrowest, {:.3g} mm where healthy\n", 1e3 * place.narrowest, 1e3 * place.reference_diameter);
-    if (config.deployment.mode == deck::DeploymentMode::geometric) return fmt::print("  deployment           without mechanics, seconds\n");
-    fmt::print("  deployment           about {:.3g} particles of stent, {:.3g} of wall; {:.3g} steps, the stent's mass times {:.3g}; about {} on {} threads\n",
-               plan.stent_particles, plan.wall_particles, plan.steps, plan.mass_scaling, readable_time(plan.seconds), threads);
+    fmt::print(
+        "  stent                {:.4g} x {:.4g} mm, opened to {:.4g} mm, along {:.4g} to {:.4g} mm from the inlet\n",
+        1e3 * place.pattern.diameter, 1e3 * place.pattern.length, 1e3 * place.diameter, 1e3 * place.start_arc(),
+        1e3 * place.end_arc());
+    fmt::print("  lumen there          {:.3g} mm at its narrowest, {:.3g} mm where healthy\n", 1e3 * place.narrowest,
+               1e3 * place.reference_diameter);
+    if (config.deployment.mode == deck::DeploymentMode::geometric)
+        return fmt::print("  deployment           without mechanics, seconds\n");
+    fmt::print(
+        "  deployment           about {:.3g} particles of stent, {:.3g} of wall; {:.3g} steps, the stent's mass times "
+        "{:.3g}; about {} on {} threads\n",
+        plan.stent_particles, plan.wall_particles, plan.steps, plan.mass_scaling, readable_time(plan.seconds), threads);
 }
 
 void check(const DeckOptions& options) {
@@ -94,7 +107,12 @@ void check(const DeckOptions& options) {
     } else {
         const FlowPlan plan = plan_flow(*build_frame(config), threads);
         print_flow_plan(options.path, plan);
-        cost = {plan.across_narrowest, plan.memory, plan.seconds, flow_disk(config, plan.fluid_particles, plan.wall_particles, known), threads, plan.longest_seconds};
+        cost = {plan.across_narrowest,
+                plan.memory,
+                plan.seconds,
+                flow_disk(config, plan.fluid_particles, plan.wall_particles, known),
+                threads,
+                plan.longest_seconds};
         if (config.initial_velocity() == deck::InitialVelocity::cells) {
             const double start = plan_cells(case_on_cells(config), threads, known).seconds;
             cost.seconds += start, cost.longest_seconds += start;
@@ -105,17 +123,19 @@ void check(const DeckOptions& options) {
     print_deploy_plan(config, *deployment, threads);
     // The flow after takes about what the flow before takes. The vessel is read once more for the stent's place, for the deployment, after
     // it and for each estimate, as long as it was just now.
-    fmt::print("  patency run          all stages: about {}, {} on the disk\n", readable_time(2 * cost.seconds + deployment->seconds + 5 * read_seconds),
+    fmt::print("  patency run          all stages: about {}, {} on the disk\n",
+               readable_time(2 * cost.seconds + deployment->seconds + 5 * read_seconds),
                readable_size(2 * cost.disk + deploy_disk(config, *deployment, *vessel)));
 }
 
-}  // namespace
+}   // namespace
 
 void add_check_command(const Command& program, ExitCode&) {
-    const Command command = program.add_command("check", "report all mistakes of a deck, and what it will cost; runs nothing");
+    const Command command =
+        program.add_command("check", "report all mistakes of a deck, and what it will cost; runs nothing");
     const auto options = std::make_shared<DeckOptions>();
     options->add_to(command);
     command.when_given([options] { check(*options); });
 }
 
-}  // namespace patency::app
+}   // namespace patency::app

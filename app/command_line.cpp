@@ -42,7 +42,9 @@ const Option& Option::comma_separated() const {
     return *this;
 }
 
-Command Command::add_command(const std::string& name, const std::string& what) const { return Command(command_->add_subcommand(name, what)); }
+Command Command::add_command(const std::string& name, const std::string& what) const {
+    return Command(command_->add_subcommand(name, what));
+}
 
 void Command::expect_one_of_its_commands() const { command_->require_subcommand(1); }
 
@@ -66,9 +68,13 @@ Option Command::add_option(const std::string& names, double& value, const std::s
     return Option(command_->add_option(names, value, what));
 }
 
-void Command::add_flag(const std::string& names, bool& value, const std::string& what) const { command_->add_flag(names, value, what); }
+void Command::add_flag(const std::string& names, bool& value, const std::string& what) const {
+    command_->add_flag(names, value, what);
+}
 
-void Command::describe(const std::string& option, const std::string& what) const { command_->get_option(option)->description(what); }
+void Command::describe(const std::string& option, const std::string& what) const {
+    command_->get_option(option)->description(what);
+}
 
 void Command::when_given(std::function<void()> call) const { command_->callback(std::move(call)); }
 

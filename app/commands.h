@@ -31,4 +31,4 @@ void add_bench_command(const Command& program, ExitCode& exit_code);
 void add_man_command(CLI::App& program, ExitCode& exit_code);
 void add_completion_command(CLI::App& program, ExitCode& exit_code);
 
-}  // namespace patency::app
+}   // namespace patency::app

@@ -19,7 +19,7 @@ const deck::Case& with_known_names(const deck::Case& config) {
     return config;
 }
 
-}  // namespace
+}   // namespace
 
 void DeckOptions::add_to(const Command& command) {
     command.add_option("case", path, "the deck (YAML)").required();
@@ -36,8 +36,9 @@ deck::Case DeckOptions::read() const {
         if (named.name == run) return with_known_names(named.resolved);
         names.push_back(named.name);
     }
-    throw UsageError(run.empty() ? fmt::format("the deck has several runs; choose one with --run: {}", join(names, ", ", " or "))
-                                 : fmt::format("the deck has no run '{}'; it has {}", run, join(names, ", ", " and ")));
+    throw UsageError(
+        run.empty() ? fmt::format("the deck has several runs; choose one with --run: {}", join(names, ", ", " or "))
+                    : fmt::format("the deck has no run '{}'; it has {}", run, join(names, ", ", " and ")));
 }
 
 int DeckOptions::apply_threads(const deck::Case& config) const {
@@ -46,4 +47,4 @@ int DeckOptions::apply_threads(const deck::Case& config) const {
     return omp_get_max_threads();
 }
 
-}  // namespace patency::app
+}   // namespace patency::app

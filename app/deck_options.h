@@ -23,4 +23,4 @@ struct DeckOptions {
     int apply_threads(const deck::Case& config) const;
 };
 
-}  // namespace patency::app
+}   // namespace patency::app

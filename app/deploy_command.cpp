@@ -8,9 +8,9 @@
 #include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
-#include "stage_runner.h"
 #include "patency/base/text.h"
 #include "patency/report/page.h"
+#include "stage_runner.h"
 
 namespace patency::app {
 
@@ -30,7 +30,8 @@ deck::Case read(const DeployOptions& options) {
     const auto found = std::find(known.begin(), known.end(), options.mode);
     if (found == known.end()) {
         const std::vector<std::string> names(known.begin(), known.end());
-        throw UsageError(fmt::format("--mode {}: is none of {}", double_quoted(shortened(options.mode)), join(names, ", ", " and ")));
+        throw UsageError(fmt::format("--mode {}: is none of {}", double_quoted(shortened(options.mode)),
+                                     join(names, ", ", " and ")));
     }
     config.deployment.mode = deck::DeploymentMode(found - known.begin());
     return config;
@@ -54,11 +55,17 @@ ExitCode run(const DeployOptions& options) {
 }   // namespace
 
 void add_deploy_command(const Command& program, ExitCode& exit_code) {
-    const Command command = program.add_command("deploy", "implant the deck's stent: crimp it, open it in the vessel, let go");
+    const Command command =
+        program.add_command("deploy", "implant the deck's stent: crimp it, open it in the vessel, let go");
     const auto options = std::make_shared<DeployOptions>();
     options->deck.add_to(command);
-    command.add_option("-o,--out", options->out, "the folder for the results; with mechanics it goes on from a checkpoint there").required();
-    command.add_option("--mode", options->mode, "balloon, radial_load, or geometric: a quick change of shape without mechanics; instead of the deck's");
+    command
+        .add_option("-o,--out", options->out,
+                    "the folder for the results; with mechanics it goes on from a checkpoint there")
+        .required();
+    command.add_option(
+        "--mode", options->mode,
+        "balloon, radial_load, or geometric: a quick change of shape without mechanics; instead of the deck's");
     command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command.when_given([options, &exit_code] { exit_code = run(*options); });
 }

@@ -94,7 +94,7 @@ void add_estimate_command(const Command& program, ExitCode&) {
     options->deck.add_to(command);
     command.add_option("-o,--out", options->out, "Folder of the results");
     command.add_flag("--vary", options->vary,
-                      "Bands for a tenth more or less flow, a tenth of a millimetre of diameter, another split");
+                     "Bands for a tenth more or less flow, a tenth of a millimetre of diameter, another split");
     command.when_given([options] { estimate(*options); });
 }
 

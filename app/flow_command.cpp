@@ -7,8 +7,8 @@
 #include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
-#include "stage_runner.h"
 #include "patency/report/page.h"
+#include "stage_runner.h"
 
 namespace patency::app {
 
@@ -34,15 +34,16 @@ ExitCode run(const FlowOptions& options) {
     return code;
 }
 
-}  // namespace
+}   // namespace
 
 void add_flow_command(const Command& program, ExitCode& exit_code) {
     const Command command = program.add_command("flow", "compute the blood flow");
     const auto options = std::make_shared<FlowOptions>();
     options->deck.add_to(command);
-    command.add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on").required();
+    command.add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")
+        .required();
     command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command.when_given([options, &exit_code] { exit_code = run(*options); });
 }
 
-}  // namespace patency::app
+}   // namespace patency::app

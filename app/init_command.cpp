@@ -87,23 +87,23 @@ void init(const InitOptions& o) {
 }   // namespace
 
 void add_init_command(const Command& program, ExitCode&) {
-    const Command command = program.add_command(
-        "init", "write a commented deck for a vessel, with what is usual where nothing is known");
+    const Command command =
+        program.add_command("init", "write a commented deck for a vessel, with what is usual where nothing is known");
     const auto o = std::make_shared<InitOptions>();
-    command
-        .add_option("vessel", o->path, "a surface, a label map or a network of tubes, as patency inspect reads them")
+    command.add_option("vessel", o->path, "a surface, a label map or a network of tubes, as patency inspect reads them")
         .required();
     command.add_option("--unit", o->unit,
-                        "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
+                       "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
     command.add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
     command.add_option("--inlet", o->inlet,
-                        "the opening that is the inlet, by name or number; the largest if not given");
+                       "the opening that is the inlet, by name or number; the largest if not given");
     command.add_option("--name", o->name, "of the case; the file's if not given");
     command.add_option("--budget", o->budget, "how long the flow may take on this machine").with_default();
-    command.add_option("--threads", o->threads, "how many threads; one per core if not given")
-        .between(1, 1024);
+    command.add_option("--threads", o->threads, "how many threads; one per core if not given").between(1, 1024);
     command.add_option("-o,--out", o->out, "the deck").with_default();
-    command.add_flag("--stent", o->stent, "with the stent that it proposes for the worst lesion, for patency run; a comment in the deck if not given");
+    command.add_flag(
+        "--stent", o->stent,
+        "with the stent that it proposes for the worst lesion, for patency run; a comment in the deck if not given");
     command.add_flag("--force", o->force, "replace a deck that is there");
     command.when_given([o] { init(*o); });
 }

@@ -55,7 +55,8 @@ std::string diameter_of(const std::optional<Reference>& reference) {
 
 void print_along(const VesselAlong& v) {
     fmt::print("Centrelines from the inlet, diameters of the largest spheres that fit:\n");
-    for (const Centreline& line : v.lines.lines) fmt::print("  {:<12} {:>9.2f} mm long\n", line.outlet, 1e3 * line.length());
+    for (const Centreline& line : v.lines.lines)
+        fmt::print("  {:<12} {:>9.2f} mm long\n", line.outlet, 1e3 * line.length());
     fmt::print("Branches:\n    {:<12} {:<12} {:>9} {:>9} {:>24}\n", "name", "after", "from mm", "to mm",
                "diameter mm, mean, range");
     for (const Branch& b : v.lines.branches) {
@@ -69,18 +70,20 @@ void print_along(const VesselAlong& v) {
         const Lesion& l = v.assessment.lesions[k];
         const Vec3 c = 1e3 * l.place;
         fmt::print("  L{} in {} at {:.2f} mm ({:.2f} to {:.2f}), ({:.2f}, {:.2f}, {:.2f}) mm\n", k + 1,
-                   v.lines.branches[l.branch].name, 1e3 * l.throat_arc, 1e3 * l.start_arc, 1e3 * l.end_arc, c.x, c.y, c.z);
+                   v.lines.branches[l.branch].name, 1e3 * l.throat_arc, 1e3 * l.start_arc, 1e3 * l.end_arc, c.x, c.y,
+                   c.z);
         fmt::print("     stenosis {:.1f} % of the diameter, {:.1f} % of the area; {:.3f} mm, {:.3f} mm^2 at least\n",
                    100 * l.diameter_stenosis, 100 * l.area_stenosis, 1e3 * l.minimum_diameter, 1e6 * l.minimum_area);
-        fmt::print("     reference diameters mm: proximal {}, distal {}, interpolated {:.3f}\n", diameter_of(l.proximal),
-                   diameter_of(l.distal), 1e3 * l.interpolated.diameter);
+        fmt::print("     reference diameters mm: proximal {}, distal {}, interpolated {:.3f}\n",
+                   diameter_of(l.proximal), diameter_of(l.distal), 1e3 * l.interpolated.diameter);
     }
 }
 
 void print_table(const InspectOptions& o, const Inspection& r) {
     const Surface& surface = r.checked.surface;
     const Bounds box = bounds(surface);
-    fmt::print("{} (unit {}{})\n", o.path, o.unit.empty() ? "its own" : o.unit, surface.space.empty() ? "" : ", axes " + surface.space);
+    fmt::print("{} (unit {}{})\n", o.path, o.unit.empty() ? "its own" : o.unit,
+               surface.space.empty() ? "" : ", axes " + surface.space);
     fmt::print("  triangles   {} read, {} kept; {} points\n", r.triangles_read, surface.triangles.size(),
                surface.points.size());
     for (const auto& [axis, low, high] :
@@ -217,7 +220,8 @@ void run(const InspectOptions& o) {
     print_table(o, result);
     if (!o.out.empty()) write_results(o, result);
     if (!result.openings.empty())
-        expect_vessel_size(result.openings[0], o.unit.empty() ? "mm" : o.unit);   // first: in a wrong unit the rest means little
+        expect_vessel_size(result.openings[0],
+                           o.unit.empty() ? "mm" : o.unit);   // first: in a wrong unit the rest means little
     if (const std::string why = refusals(result.checked.findings); !why.empty())
         throw GeometryError(fmt::format("the surface '{}' cannot be used yet:\n{}", o.path, why));
 }
@@ -228,15 +232,19 @@ void add_inspect_command(const Command& program, ExitCode&) {
     const Command command =
         program.add_command("inspect", "say what a surface is as a vessel: openings, sizes, defects, a picture");
     const auto o = std::make_shared<InspectOptions>();
-    command.add_option("surface", o->path, "a surface (STL, VTP, PLY, OBJ, legacy VTK), a label map (NIfTI, NRRD, MetaImage) or a network of tubes (JSON, SWC, "
-                                         "VTP, legacy VTK)").required();
-    command.add_option("--unit", o->unit, "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
+    command
+        .add_option("surface", o->path,
+                    "a surface (STL, VTP, PLY, OBJ, legacy VTK), a label map (NIfTI, NRRD, MetaImage) or a network of "
+                    "tubes (JSON, SWC, "
+                    "VTP, legacy VTK)")
+        .required();
+    command.add_option("--unit", o->unit,
+                       "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
     command.add_option("--label", o->label, "of a label map with several: which one is the vessel");
     command.add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
-    command.add_option("-o,--out", o->out,
-                        "a folder for the cleaned surface, the findings, the figures and a picture");
+    command.add_option("-o,--out", o->out, "a folder for the cleaned surface, the findings, the figures and a picture");
     command.add_option("--inlet", o->inlet,
-                        "the opening that is the inlet, by name or number; the largest if not given");
+                       "the opening that is the inlet, by name or number; the largest if not given");
     command.when_given([o] { run(*o); });
 }
 

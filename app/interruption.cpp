@@ -40,6 +40,8 @@ bool Interruption::is_wanted() const {
     return is_file_seen_;
 }
 
-ExitCode Interruption::exit_code() const { return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
+ExitCode Interruption::exit_code() const {
+    return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+}
 
 }   // namespace patency::app

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arguments in, exit code out. Commands stand in files of their own (commands.h).
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <cstdlib>
@@ -39,7 +39,8 @@ int run(int argc, char** argv) {
     app::add_man_command(program, exit_code);
     app::add_completion_command(program, exit_code);
     std::string codes = "Exit codes:";
-    for (const app::ExitMeaning& exit : app::exit_meanings()) codes += fmt::format("\n  {:<10}{}", exit.code, exit.meaning);
+    for (const app::ExitMeaning& exit : app::exit_meanings())
+        codes += fmt::format("\n  {:<10}{}", exit.code, exit.meaning);
     program.footer(codes);
     try {
         program.parse(argc, argv);
@@ -59,7 +60,7 @@ void let_threads_sleep(char** argv) {
     ::execv("/proc/self/exe", argv);   // returns only if it fails: then they spin
 }
 
-}  // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     let_threads_sleep(argv);
@@ -69,7 +70,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "patency: %s\n", error.what());
         return int(error.code());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "patency: not enough memory; use a larger numerics.spacing (patency check says what is needed)\n");
+        std::fprintf(stderr,
+                     "patency: not enough memory; use a larger numerics.spacing (patency check says what is needed)\n");
         return int(patency::ExitCode::geometry);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "patency: %s\n", error.what());

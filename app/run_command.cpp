@@ -14,8 +14,6 @@
 #include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
-#include "stage_runner.h"
-#include "solid_runner.h"
 #include "patency/base/text.h"
 #include "patency/config/deck.h"
 #include "patency/io/summary.h"
@@ -25,6 +23,8 @@
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/materials_summary.h"
 #include "patency/stages/stent_placement.h"
+#include "solid_runner.h"
+#include "stage_runner.h"
 
 namespace patency::app {
 
@@ -44,7 +44,8 @@ Json estimate(const deck::Case& config, const Vessel& vessel, const Log& log) {
     const Estimate e = estimate_flow(config, vessel);
     Json summary = estimate_summary(config, vessel, e, estimate_band(config, vessel));
     for (const auto& [name, opening] : summary["openings"].items())
-        log(LogLevel::info, fmt::format("estimate: {} {:.2f} mL/min", name, 6e7 * opening["flow_m3_per_s"].get<double>()));
+        log(LogLevel::info,
+            fmt::format("estimate: {} {:.2f} mL/min", name, 6e7 * opening["flow_m3_per_s"].get<double>()));
     return summary;
 }
 
@@ -54,25 +55,31 @@ constexpr std::string_view all_stages[] = {"before", "deploy", "after"};
 std::vector<std::string> stages_of(const deck::Case& config, const std::vector<std::string>& asked) {
     for (const std::string& name : asked)
         if (std::find(std::begin(all_stages), std::end(all_stages), name) == std::end(all_stages))
-            throw UsageError(fmt::format("--stages: {} is none of before, deploy and after", double_quoted(shortened(name))));
+            throw UsageError(
+                fmt::format("--stages: {} is none of before, deploy and after", double_quoted(shortened(name))));
     std::vector<std::string> stages;
     for (const std::string_view stage : all_stages) {
         const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), stage) != asked.end();
         if (is_asked && (stage == "before" || config.stent)) stages.emplace_back(stage);
     }
-    if (stages.empty()) throw UsageError("--stages: the deck has no stent, so there is nothing to deploy and nothing after");
+    if (stages.empty())
+        throw UsageError("--stages: the deck has no stent, so there is nothing to deploy and nothing after");
     return stages;
 }
 
 /// One run of all stages, each in its folder; those that have ended are kept.
 class Run {
 public:
-    Run(const deck::Case& config, const OutputFolder& folder, const std::string& title, bool is_fresh) : config_(config), folder_(folder), interruption_(folder) {
+    Run(const deck::Case& config, const OutputFolder& folder, const std::string& title, bool is_fresh)
+        : config_(config), folder_(folder), interruption_(folder) {
         const Json origin = origin_summary(origin_of(config, binary_hash()));
         const std::filesystem::path known = folder.file("origin.json");
         const bool goes_on = !is_fresh && std::filesystem::exists(known);
         if (goes_on && read_summary(known) != origin)
-            throw CheckpointError(fmt::format("'{}' holds a run of another deck, other inputs or another version of the program; --fresh begins anew there", folder.root().string()));
+            throw CheckpointError(
+                fmt::format("'{}' holds a run of another deck, other inputs or another version of the program; --fresh "
+                            "begins anew there",
+                            folder.root().string()));
         if (!goes_on) {
             for (const std::string_view stage : all_stages)
                 if (is_output_folder(folder.file(stage))) OutputFolder(folder.file(stage)).clear();
@@ -85,7 +92,8 @@ public:
 
     ExitCode go(const std::vector<std::string>& stages) {
         const bool will_deploy = std::find(stages.begin(), stages.end(), "deploy") != stages.end();
-        if (will_deploy) place_stent(config_, read_vessel(config_));   // a stent that cannot go there is refused before the flow
+        if (will_deploy)
+            place_stent(config_, read_vessel(config_));   // a stent that cannot go there is refused before the flow
         for (const std::string& stage : stages) {
             const OutputFolder here(folder_.file(stage));
             if (has_ended(stage)) {
@@ -94,7 +102,9 @@ public:
             }
             if (stage == "deploy" && !here.has_checkpoint("deploy")) here.clear();
             if (stages.size() > 1 || stage != "before") say(fmt::format("--- {} ---", stage));
-            const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, interruption_, log_) : run_flow_stage(stage == "after" ? deck_after() : config_, here, interruption_, log_);
+            const ExitCode code = stage == "deploy" ? run_deploy_stage(config_, here, interruption_, log_)
+                                                    : run_flow_stage(stage == "after" ? deck_after() : config_, here,
+                                                                     interruption_, log_);
             if (code != ExitCode::ok && code != ExitCode::bar_missed) return code;
         }
         return conclude();
@@ -144,7 +154,8 @@ private:
         ExitCode code = ExitCode::ok;
         for (const std::string_view stage : all_stages) {
             if (!has_ended(stage)) continue;
-            Json part = read_summary(folder_.file(stage) / "summary.json"), times = read_summary(folder_.file(stage) / "timing.json");
+            Json part = read_summary(folder_.file(stage) / "summary.json"),
+                 times = read_summary(folder_.file(stage) / "timing.json");
             if (stage == "deploy") {
                 part = Json(part["deploy"]), times = Json(times["deploy"]);
                 if (!is_quasi_static(part)) code = ExitCode::bar_missed;
@@ -155,7 +166,8 @@ private:
             timing[std::string(stage)] = times;
         }
         if (summary.contains("before") && summary.contains("after"))   // an opened lesion is none any more
-            summary["after"]["at_lesions"] = at_lesions_of(summary["before"], pullback_of("before"), summary["after"], pullback_of("after"));
+            summary["after"]["at_lesions"] =
+                at_lesions_of(summary["before"], pullback_of("before"), summary["after"], pullback_of("after"));
         write_summary(folder_.file("summary.json"), summary);
         write_summary(folder_.file("timing.json"), timing);
         say(fmt::format("the page: {}", write_report(folder_.root(), PATENCY_VERSION).string()));
@@ -180,11 +192,16 @@ ExitCode run(const RunOptions& options) {
 }   // namespace
 
 void add_run_command(const Command& program, ExitCode& exit_code) {
-    const Command command = program.add_command("run", "everything that the deck asks for: the flow, with a stent its deployment and the flow after, and the page; or solids");
+    const Command command = program.add_command("run",
+                                                "everything that the deck asks for: the flow, with a stent its "
+                                                "deployment and the flow after, and the page; or solids");
     const auto options = std::make_shared<RunOptions>();
     options->deck.add_to(command);
-    command.add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on").required();
-    command.add_option("--stages", options->stages, "only these of before, deploy and after; what ended earlier is kept").comma_separated();
+    command.add_option("-o,--out", options->out, "the folder for the results; a run that was interrupted there goes on")
+        .required();
+    command
+        .add_option("--stages", options->stages, "only these of before, deploy and after; what ended earlier is kept")
+        .comma_separated();
     command.add_flag("--fresh", options->fresh, "begin anew instead of going on");
     command.when_given([options, &exit_code] { exit_code = run(*options); });
 }

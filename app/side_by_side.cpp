@@ -43,7 +43,8 @@ pid_t start(const Job& job) {
 
 }   // namespace
 
-void run_side_by_side(const std::vector<Job>& jobs, int at_once, const Interruption& interruption, const JobCalls& calls) {
+void run_side_by_side(const std::vector<Job>& jobs, int at_once, const Interruption& interruption,
+                      const JobCalls& calls) {
     std::map<pid_t, std::size_t> running;
     bool is_handed_on = false;
     for (std::size_t next = 0;;) {
@@ -53,7 +54,8 @@ void run_side_by_side(const std::vector<Job>& jobs, int at_once, const Interrupt
         }
         if (running.empty()) return;
         if (interruption.is_wanted() && !is_handed_on) {
-            for (const auto& [process, job] : running) ::kill(process, interruption.exit_code() == ExitCode::terminated ? SIGTERM : SIGINT);
+            for (const auto& [process, job] : running)
+                ::kill(process, interruption.exit_code() == ExitCode::terminated ? SIGTERM : SIGINT);
             is_handed_on = true;
         }
         int status = 0;

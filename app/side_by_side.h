@@ -23,6 +23,7 @@ struct JobCalls {
 
 /// Runs the jobs in their order, `at_once` of them together. An interruption is handed on to those that run, whose ends are waited
 /// for, and no other begins. If this process is killed they are killed too. Throws FileError.
-void run_side_by_side(const std::vector<Job>& jobs, int at_once, const Interruption& interruption, const JobCalls& calls);
+void run_side_by_side(const std::vector<Job>& jobs, int at_once, const Interruption& interruption,
+                      const JobCalls& calls);
 
 }   // namespace patency::app

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "stage_runner.h"
 #include "patency/stages/run_solids.h"
 #include "patency/stages/solid_scene.h"
+#include "stage_runner.h"
 
 namespace patency::app {
 
@@ -17,7 +17,12 @@ ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, s
     const Interruption interruption(folder);
     Progress progress = make_progress();
     try {
-        if (run_solids(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress})) return ExitCode::ok;
+        if (run_solids(config, {.folder = folder,
+                                .binary_hash = binary_hash(),
+                                .interrupted = [&] { return interruption.is_wanted(); },
+                                .log = log,
+                                .progress = &progress}))
+            return ExitCode::ok;
     } catch (const Error& error) {
         log(LogLevel::error, error.what());
         throw;
@@ -29,8 +34,8 @@ void print_solid_plan(const deck::Case& config) {
     const auto scene = build_solids(config);
     for (const auto& part : scene->system.parts) {
         const ElasticModuli m = part->solid.materials[0].moduli();
-        fmt::print("  {:<20} {} particles; E {:.4g} Pa, nu {:.4g}, G {:.4g} Pa, K {:.4g} Pa\n", part->name, part->body->particles().size(), m.young(),
-                   m.poisson(), m.shear, m.bulk);
+        fmt::print("  {:<20} {} particles; E {:.4g} Pa, nu {:.4g}, G {:.4g} Pa, K {:.4g} Pa\n", part->name,
+                   part->body->particles().size(), m.young(), m.poisson(), m.shear, m.bulk);
     }
     const double dt = stable_step(scene->system);
     fmt::print("  steps                {:.3g} s; about {:.3g} in all\n", dt, config.numerics.duration / dt);

@@ -55,10 +55,15 @@ auto run_logged(const Log& log, Job job) {
 
 }   // namespace
 
-ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log) {
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
+                        const Log& log) {
     if (!config.solids.empty()) throw DeckError("this deck has solids and no blood; compute it by patency solid");
     const Outcome outcome = run_logged(log, [&](Progress& progress) {
-        return run_flow(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress});
+        return run_flow(config, {.folder = folder,
+                                 .binary_hash = binary_hash(),
+                                 .interrupted = [&] { return interruption.is_wanted(); },
+                                 .log = log,
+                                 .progress = &progress});
     });
     if (outcome == Outcome::interrupted) return interruption.exit_code();
     fmt::print("{}", flow_table(read_summary(folder.file("summary.json"))));
@@ -70,14 +75,21 @@ bool is_quasi_static(const nlohmann::ordered_json& deploy) {
     return !deploy["kinetic_to_internal"].is_number() || deploy["kinetic_to_internal"].get<double>() < most;
 }
 
-ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log) {
+ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
+                          const Log& log) {
     const bool is_done = run_logged(log, [&](Progress& progress) {
-        return run_deploy(config, {.folder = folder, .binary_hash = binary_hash(), .interrupted = [&] { return interruption.is_wanted(); }, .log = log, .progress = &progress});
+        return run_deploy(config, {.folder = folder,
+                                   .binary_hash = binary_hash(),
+                                   .interrupted = [&] { return interruption.is_wanted(); },
+                                   .log = log,
+                                   .progress = &progress});
     });
     if (!is_done) return interruption.exit_code();
     if (is_quasi_static(read_summary(folder.file("summary.json"))["deploy"])) return ExitCode::ok;
-    log(LogLevel::warning, "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so that recoil, strains and "
-                           "pressures are provisional; give deployment.steps more");
+    log(LogLevel::warning,
+        "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so that "
+        "recoil, strains and "
+        "pressures are provisional; give deployment.steps more");
     return ExitCode::bar_missed;
 }
 

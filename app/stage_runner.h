@@ -22,13 +22,15 @@ Progress make_progress();
 
 /// The flow of a case into a folder. An interruption ends it with a checkpoint (130, 143); a flow that has not settled in its
 /// duration is 6. What throws is in the log.
-ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log);
+ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
+                        const Log& log);
 
 /// Whether a deployment's part of summary.json tells of solids that hardly moved for what they bore; one without mechanics is.
 bool is_quasi_static(const nlohmann::ordered_json& deploy);
 
 /// The deployment of a case's stent into a folder; interruption and what throws as of a flow. One that was not quasi-static is 6.
-ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption, const Log& log);
+ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
+                          const Log& log);
 
 /// Of the program that runs.
 std::string binary_hash();

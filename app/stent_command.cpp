@@ -246,7 +246,7 @@ void add_stent_command(const Command& program, ExitCode&) {
     command.add_command("list", "the designs by name").when_given(print_library);
     const auto add_output = [&](const Command& sub) {
         sub.add_option("--spacing", o->spacing,
-                        "of the particles, such as \"20 um\"; a quarter of a strut if not given");
+                       "of the particles, such as \"20 um\"; a quarter of a strut if not given");
         sub.add_option("-o,--out", o->out, "a folder for the metal's surface, its particles, figures and a picture");
     };
     const Command show_command = command.add_command("show", "one design in figures");

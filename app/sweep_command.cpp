@@ -9,14 +9,14 @@
 #include "command_line.h"
 #include "commands.h"
 #include "deck_options.h"
-#include "side_by_side.h"
-#include "stage_runner.h"
 #include "patency/base/text.h"
 #include "patency/config/sweep.h"
 #include "patency/io/atomic_file.h"
 #include "patency/io/summary.h"
 #include "patency/report/sweep.h"
 #include "patency/stages/flow_checkpoint.h"
+#include "side_by_side.h"
+#include "stage_runner.h"
 
 namespace patency::app {
 
@@ -62,8 +62,10 @@ std::vector<Variant> variants_of(const SweepOptions& options, Sweep& sweep) {
         variant.deck.settings.clear();
         for (std::size_t a = 0; a < axes.size(); ++a) {
             if (axes[a].values.size() > 1) variant.row.values.push_back(point.values[a]);
-            if (axes[a].key == "run") variant.deck.run = point.values[a];
-            else variant.deck.settings.push_back(axes[a].key + "=" + point.values[a]);
+            if (axes[a].key == "run")
+                variant.deck.run = point.values[a];
+            else
+                variant.deck.settings.push_back(axes[a].key + "=" + point.values[a]);
         }
         const deck::Case config = variant.deck.read();
         sweep.name = config.about.name;
@@ -73,16 +75,22 @@ std::vector<Variant> variants_of(const SweepOptions& options, Sweep& sweep) {
     return variants;
 }
 
-bool has_ended_well(const SweepRow& row) { return row.exit_code == int(ExitCode::ok) || row.exit_code == int(ExitCode::bar_missed); }
+bool has_ended_well(const SweepRow& row) {
+    return row.exit_code == int(ExitCode::ok) || row.exit_code == int(ExitCode::bar_missed);
+}
 
 /// Runs that an earlier sweep brought to their end are kept, if they are the same.
 void keep_what_is_done(const fs::path& out, Sweep& sweep) {
     if (!is_sweep(out)) return;
     const Sweep before = read_sweep(out);
-    if (before.command != sweep.command) throw CheckpointError(fmt::format("'{}' holds a sweep of patency {}; --fresh begins anew there", out.string(), before.command));
+    if (before.command != sweep.command)
+        throw CheckpointError(
+            fmt::format("'{}' holds a sweep of patency {}; --fresh begins anew there", out.string(), before.command));
     for (SweepRow& row : sweep.rows)
         for (const SweepRow& old : before.rows)
-            if (old.name == row.name && old.made_from && *old.made_from == *row.made_from && has_ended_well(old) && old.summary) row = old;
+            if (old.name == row.name && old.made_from && *old.made_from == *row.made_from && has_ended_well(old) &&
+                old.summary)
+                row = old;
 }
 
 /// Why a run failed: its last sentence.
@@ -98,8 +106,10 @@ std::string reason_in(const fs::path& output, int exit_code) {
 
 Job job_of(const SweepOptions& options, const Variant& variant, int threads) {
     const fs::path folder = fs::path(options.out) / variant.row.name;
-    Job job{{options.command, options.deck.path, "-o", folder.string(), "--threads", fmt::format("{}", threads)}, fs::path(options.out) / (variant.row.name + ".txt")};
-    for (const std::string& setting : variant.deck.settings) job.arguments.insert(job.arguments.end(), {"--set", setting});
+    Job job{{options.command, options.deck.path, "-o", folder.string(), "--threads", fmt::format("{}", threads)},
+            fs::path(options.out) / (variant.row.name + ".txt")};
+    for (const std::string& setting : variant.deck.settings)
+        job.arguments.insert(job.arguments.end(), {"--set", setting});
     if (!variant.deck.run.empty()) job.arguments.insert(job.arguments.end(), {"--run", variant.deck.run});
     if (options.fresh && options.command != "estimate")   // which always begins anew
         job.arguments.emplace_back("--fresh");
@@ -123,43 +133,56 @@ ExitCode run(const SweepOptions& options) {
     const int at_once = std::clamp(options.jobs > 0 ? options.jobs : threads, 1, std::max(1, int(to_run.size())));
     const Log log = make_run_log(folder, !options.fresh);
     const auto say = [&](const std::string& line) { log(LogLevel::info, line); };
-    say(fmt::format("{}: {} runs, {} of them done before; {} at once, {} threads each", options.deck.path, variants.size(), variants.size() - to_run.size(), at_once,
-                    std::max(1, threads / at_once)));
+    say(fmt::format("{}: {} runs, {} of them done before; {} at once, {} threads each", options.deck.path,
+                    variants.size(), variants.size() - to_run.size(), at_once, std::max(1, threads / at_once)));
     std::vector<Job> jobs;
     for (const std::size_t row : to_run) jobs.push_back(job_of(options, variants[row], std::max(1, threads / at_once)));
     const Interruption interruption(folder);
     std::size_t ended = 0;
     run_side_by_side(jobs, at_once, interruption,
                      {.begun = [&](std::size_t job) { say(fmt::format("{} begins", sweep.rows[to_run[job]].name)); },
-                      .ended = [&](std::size_t job, int exit_code) {
-                          SweepRow& row = sweep.rows[to_run[job]];
-                          row.exit_code = exit_code;
-                          row.reason = reason_in(jobs[job].output, exit_code);
-                          const fs::path summary = fs::path(options.out) / row.name / "summary.json";
-                          if (has_ended_well(row) && fs::exists(summary)) row.summary = std::make_shared<const Json>(read_summary(summary));
-                          say(fmt::format("{} of {}: {}: {}", ++ended, to_run.size(), row.name, row.reason.empty() ? "done" : row.reason));
-                          record();
-                      }});
+                      .ended =
+                          [&](std::size_t job, int exit_code) {
+                              SweepRow& row = sweep.rows[to_run[job]];
+                              row.exit_code = exit_code;
+                              row.reason = reason_in(jobs[job].output, exit_code);
+                              const fs::path summary = fs::path(options.out) / row.name / "summary.json";
+                              if (has_ended_well(row) && fs::exists(summary))
+                                  row.summary = std::make_shared<const Json>(read_summary(summary));
+                              say(fmt::format("{} of {}: {}: {}", ++ended, to_run.size(), row.name,
+                                              row.reason.empty() ? "done" : row.reason));
+                              record();
+                          }});
     fmt::print("{}", sweep_text(sweep));
     say(fmt::format("the page: {}", folder.file("report.html").string()));
     if (interruption.is_wanted()) return interruption.exit_code();
-    const auto has_code = [&](ExitCode code) { return std::any_of(sweep.rows.begin(), sweep.rows.end(), [&](const SweepRow& row) { return row.exit_code == int(code); }); };
+    const auto has_code = [&](ExitCode code) {
+        return std::any_of(sweep.rows.begin(), sweep.rows.end(),
+                           [&](const SweepRow& row) { return row.exit_code == int(code); });
+    };
     if (has_code(ExitCode::checkpoint)) return ExitCode::checkpoint;
-    const bool all_good = std::all_of(sweep.rows.begin(), sweep.rows.end(), [](const SweepRow& row) { return row.exit_code == int(ExitCode::ok); });
+    const bool all_good = std::all_of(sweep.rows.begin(), sweep.rows.end(),
+                                      [](const SweepRow& row) { return row.exit_code == int(ExitCode::ok); });
     return all_good ? ExitCode::ok : ExitCode::bar_missed;
 }
 
 }   // namespace
 
 void add_sweep_command(const Command& program, ExitCode& exit_code) {
-    const Command command = program.add_command("sweep", "a deck with all combinations of some keys' values, several runs at once; one table and one page");
+    const Command command = program.add_command(
+        "sweep", "a deck with all combinations of some keys' values, several runs at once; one table and one page");
     const auto options = std::make_shared<SweepOptions>();
     options->deck.add_to(command);
-    command.describe("--set", "a key of the deck and its values: key=value,value; may be repeated, all combinations are run");
+    command.describe("--set",
+                     "a key of the deck and its values: key=value,value; may be repeated, all combinations are run");
     command.describe("--run", "which of the deck's runs; all of them if absent");
     command.describe("--threads", "how many threads all runs have together; the deck's or one per core if absent");
-    command.add_option("-o,--out", options->out, "the folder for the results; a sweep that was interrupted there goes on").required();
-    command.add_option("--command", options->command, "what each run is").one_of({"run", "flow", "deploy", "estimate", "solid"}).with_default();
+    command
+        .add_option("-o,--out", options->out, "the folder for the results; a sweep that was interrupted there goes on")
+        .required();
+    command.add_option("--command", options->command, "what each run is")
+        .one_of({"run", "flow", "deploy", "estimate", "solid"})
+        .with_default();
     command.add_option("--jobs", options->jobs, "how many runs at once; as many as threads if absent").between(1, 1024);
     command.add_flag("--fresh", options->fresh, "do all runs again");
     command.when_given([options, &exit_code] { exit_code = run(*options); });

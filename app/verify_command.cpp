@@ -26,7 +26,8 @@ fs::path find_decks(const std::string& wanted) {
     if (!wanted.empty()) return wanted;
     if (fs::exists("cases/verify")) return "cases/verify";
     std::error_code error;
-    const fs::path installed = fs::read_symlink("/proc/self/exe", error).parent_path() / PATENCY_DATA / "cases" / "verify";
+    const fs::path installed =
+        fs::read_symlink("/proc/self/exe", error).parent_path() / PATENCY_DATA / "cases" / "verify";
     return fs::exists(installed) ? installed : fs::path(PATENCY_SOURCE_DIR) / "cases" / "verify";
 }
 
@@ -41,12 +42,15 @@ public:
         if (p.done) {
             const std::string how = !p.done->failure.empty() ? "FAILED: " + p.done->failure
                                     : p.is_reused            ? "done before"
-                                                             : fmt::format("{} steps, {:.1f} s ({:.1f} CPU s)", p.done->acoustic_steps, p.done->wall_s, p.done->cpu_s);
-            fmt::print(stderr, "{}{:<42} {:>9} particles  {}\n", is_terminal ? "\r\033[K" : "", name, p.done->particles, how);
+                                                             : fmt::format("{} steps, {:.1f} s ({:.1f} CPU s)",
+                                                                           p.done->acoustic_steps, p.done->wall_s, p.done->cpu_s);
+            fmt::print(stderr, "{}{:<42} {:>9} particles  {}\n", is_terminal ? "\r\033[K" : "", name, p.done->particles,
+                       how);
         } else if (now - last_ > (is_terminal ? std::chrono::milliseconds(300) : std::chrono::milliseconds(60000))) {
             const double spent = std::chrono::duration<double>(now - start_).count();
             const std::string left = p.share > 0 ? "  left " + duration_text(spent * (1 - p.share) / p.share) : "";
-            fmt::print(stderr, "{}{:<42} {:>5.1f} %{}{}", is_terminal ? "\r\033[K" : "", name, 100 * p.share, left, is_terminal ? "" : "\n");
+            fmt::print(stderr, "{}{:<42} {:>5.1f} %{}{}", is_terminal ? "\r\033[K" : "", name, 100 * p.share, left,
+                       is_terminal ? "" : "\n");
             std::fflush(stderr);
             last_ = now;
         }
@@ -60,8 +64,10 @@ private:
 void print_report(const CaseReport& report) {
     fmt::print("{} ({}, {} particles)\n", report.name, word_of(report.level), report.particles);
     for (const Figure& f : report.figures) {
-        const std::string bar = f.bar ? fmt::format("{} {:g} {}", word_of(f.bar->sense), f.bar->limit, f.passes() ? "" : "MISSED") : "";
-        fmt::print("  {:<48} {:>12} {:<8} {}\n", f.key, f.value ? fmt::format("{:.5g}", *f.value) : "none", f.unit, bar);
+        const std::string bar =
+            f.bar ? fmt::format("{} {:g} {}", word_of(f.bar->sense), f.bar->limit, f.passes() ? "" : "MISSED") : "";
+        fmt::print("  {:<48} {:>12} {:<8} {}\n", f.key, f.value ? fmt::format("{:.5g}", *f.value) : "none", f.unit,
+                   bar);
         if (!f.value) fmt::print("    {}\n", f.reason);
     }
 }
@@ -75,7 +81,8 @@ struct Options {
 
 ExitCode run(const Options& o) {
     if (o.is_listing) {
-        for (const VerifyCase& c : verification_cases()) fmt::print("{:<22} {:<6} {}\n", c.name, word_of(c.level), c.title);
+        for (const VerifyCase& c : verification_cases())
+            fmt::print("{:<22} {:<6} {}\n", c.name, word_of(c.level), c.title);
         return ExitCode::ok;
     }
     if (!o.report.empty()) {
@@ -86,9 +93,15 @@ ExitCode run(const Options& o) {
     const Interruption interruption;
     const fs::path decks = find_decks(o.decks);
     Screen screen;
-    VerifyRequest request{.names = o.names, .level = o.level == "full" ? Level::full : Level::quick, .out = o.out, .decks = decks,
-                          .reference = o.reference.empty() ? decks / "../../../shared/data/reference" : fs::path(o.reference),
-                          .program = hex_text(hash_file("/proc/self/exe")), .settings = o.settings, .fresh = o.fresh};
+    VerifyRequest request{
+        .names = o.names,
+        .level = o.level == "full" ? Level::full : Level::quick,
+        .out = o.out,
+        .decks = decks,
+        .reference = o.reference.empty() ? decks / "../../../shared/data/reference" : fs::path(o.reference),
+        .program = hex_text(hash_file("/proc/self/exe")),
+        .settings = o.settings,
+        .fresh = o.fresh};
     request.report = [&](const VerifyProgress& p) { screen.show(p); };
     request.interrupted = [&] { return interruption.is_wanted(); };
     bool all_pass = true;
@@ -104,23 +117,31 @@ ExitCode run(const Options& o) {
     return all_pass ? ExitCode::ok : ExitCode::bar_missed;
 }
 
-}  // namespace
+}   // namespace
 
 void add_verify_command(const Command& program, ExitCode& exit_code) {
-    const Command command = program.add_command("verify", "Run cases with known answers and hold their figures against bars");
+    const Command command =
+        program.add_command("verify", "Run cases with known answers and hold their figures against bars");
     const auto o = std::make_shared<Options>();
     command.add_option("names", o->names, "Cases; all of the level if none is named");
-    command.add_option("--level", o->level, "quick: eight minutes on two cores; full: everything").one_of({"quick", "full"}).with_default();
-    command.add_option("-o,--out", o->out, "Folder of the results; runs that are done are kept there and not done again").with_default();
+    command.add_option("--level", o->level, "quick: eight minutes on two cores; full: everything")
+        .one_of({"quick", "full"})
+        .with_default();
+    command
+        .add_option("-o,--out", o->out, "Folder of the results; runs that are done are kept there and not done again")
+        .with_default();
     command.add_option("--threads", o->threads, "Threads; all cores if not given").between(1, 1024);
     command.add_option("--set", o->settings, "KEY=VALUE over every deck").repeated();
     command.add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
     command.add_option("--reference", o->reference, "Folder of stored results of other programs");
-    command.add_option("--report", o->report, "Write the document of the results in the folder and of those written before, and run nothing");
-    command.add_option("--run", o->run, "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
+    command.add_option("--report", o->report,
+                       "Write the document of the results in the folder and of those written before, and run nothing");
+    command.add_option(
+        "--run", o->run,
+        "With --report: OUT of patency run on the reference paper's bifurcation, to stand beside its table VI");
     command.add_flag("--fresh", o->fresh, "Do all runs again");
     command.add_flag("--list", o->is_listing, "List the cases");
     command.when_given([o, &exit_code] { exit_code = run(*o); });
 }
 
-}  // namespace patency::app
+}   // namespace patency::app

@@ -71,7 +71,8 @@ TEST(SectionFlow, OfABluntProfileLosesNothingAtTheWall) {
     const auto share = [&](const Vec3& x) { return tube.radial(x) / tube.radius; };
     for (std::size_t i = 0; i < tube.fluid.size(); ++i)   // its mean is 0.8 of the middle's
         tube.fluid.velocity[i] = (1 - std::pow(share(tube.fluid.position[i]), 8)) * tube.axis();
-    const std::vector<SectionGrid> grid{make_section_grid({tube.motion.place({4.5e-3, 0, 0}), tube.axis(), tube.radius}, tube.wall)};
+    const std::vector<SectionGrid> grid{
+        make_section_grid({tube.motion.place({4.5e-3, 0, 0}), tube.axis(), tube.radius}, tube.wall)};
     const SectionFlow f = flow_through_sections(tube.fluid, *tube.frame, grid, tube.reach(), tube.wall)[0];
     EXPECT_NEAR(f.mean_velocity / 0.8, 1, 0.02);   // samples smooth the profile and would give less
 }

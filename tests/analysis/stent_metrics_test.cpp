@@ -30,7 +30,9 @@ std::vector<StentPoint> face(const std::function<double(double, double)>& radius
 TEST(StentProfile, OfACylinderIsItsDiameter) {
     const StentProfile shape = measure_stent_profile(face([](double, double) { return 1.5e-3; }, 7), 8);
     EXPECT_NEAR(shape.length, 10e-3, 1e-15);
-    for (const double d : {shape.least_diameter, shape.mean_diameter, shape.most_diameter, shape.end_diameter, shape.middle_diameter}) EXPECT_NEAR(d, 3e-3, 1e-15);
+    for (const double d :
+         {shape.least_diameter, shape.mean_diameter, shape.most_diameter, shape.end_diameter, shape.middle_diameter})
+        EXPECT_NEAR(d, 3e-3, 1e-15);
     EXPECT_NEAR(shape.least_area, pi * 2.25e-6, 1e-18);
     EXPECT_NEAR(dogboning(shape), 0, 1e-14);
 }
@@ -44,7 +46,8 @@ TEST(StentProfile, KnowsAnEllipseAndAWaist) {
     EXPECT_NEAR(oval.slices[2].least_diameter, 2 * b, 1e-9);
     EXPECT_NEAR(oval.slices[2].most_diameter, 2 * a, 1e-9);
     // A waist: 1 mm in the middle, 1.5 mm at the ends, linear between.
-    const StentProfile waist = measure_stent_profile(face([](double, double s) { return 1e-3 + 0.1 * std::abs(s); }, 90, 2001), 101);
+    const StentProfile waist =
+        measure_stent_profile(face([](double, double s) { return 1e-3 + 0.1 * std::abs(s); }, 90, 2001), 101);
     EXPECT_NEAR(waist.least_diameter, 2e-3, 0.02e-3);
     EXPECT_NEAR(waist.most_diameter, 3e-3, 0.02e-3);
     EXPECT_NEAR(waist.end_diameter, 2.9e-3, 0.01e-3);      // the mean over the last tenths: 1.45 mm
@@ -89,7 +92,8 @@ TEST(JailedOstia, HaveTheAreaOfTheSideBranchOnTheStent) {
     // A side branch of radius b across a main one of the stent's radius a: on the cylinder, area 4 int_0^b a asin(y/a) ... =
     // int over |along| < b of 2 a asin(sqrt(b^2 - s^2) / a).
     const double a = 1.5e-3, b = 0.8e-3;
-    const SignedDistance y = union_of_round_cones({{{-20e-3, 0, 0}, {20e-3, 0, 0}, a, a}, {{0, 0, 0}, {0, 15e-3, 0}, b, b}});
+    const SignedDistance y =
+        union_of_round_cones({{{-20e-3, 0, 0}, {20e-3, 0, 0}, a, a}, {{0, 0, 0}, {0, 15e-3, 0}, b, b}});
     const StentProfile shape = measure_stent_profile(face([=](double, double) { return a; }), 10);
     double expected = 0;
     const int n = 2000;

@@ -13,8 +13,13 @@ namespace {
 using testing_analysis::PoiseuilleTube;
 
 StreamlineRule rule_of(const PoiseuilleTube& tube) {
-    return {.step = tube.spacing, .longest = 0.1, .slowest = 1e-3, .reach = tube.reach(),
-            .is_inside = [&tube](const Vec3& x) { return tube.radial(x) < tube.radius && tube.axial(x) < tube.length - 1e-3; }};
+    return {.step = tube.spacing,
+            .longest = 0.1,
+            .slowest = 1e-3,
+            .reach = tube.reach(),
+            .is_inside = [&tube](const Vec3& x) {
+                return tube.radial(x) < tube.radius && tube.axial(x) < tube.length - 1e-3;
+            }};
 }
 
 TEST(Streamlines, OfAParabolaAreParallelToTheAxis) {
@@ -29,12 +34,14 @@ TEST(Streamlines, OfAParabolaAreParallelToTheAxis) {
         EXPECT_EQ(line.points.front(), seeds[k]);
         EXPECT_EQ(line.velocity.size(), line.points.size());
         EXPECT_NEAR(tube.radial(line.points.back()), tube.radial(seeds[k]), 1e-3 * tube.radius);
-        EXPECT_GT(tube.axial(line.points.back()), tube.length - 1e-3 - 1.5 * tube.spacing);   // to the end of the domain
+        EXPECT_GT(tube.axial(line.points.back()),
+                  tube.length - 1e-3 - 1.5 * tube.spacing);   // to the end of the domain
         for (std::size_t n = 0; n < line.points.size(); ++n) {
             EXPECT_NEAR(norm(line.velocity[n] - tube.velocity(line.points[n])), 0, 0.01 * tube.mean_speed);
             EXPECT_NEAR(line.pressure[n], tube.pressure(line.points[n]), 1e-6);
         }
-        for (std::size_t n = 1; n < line.points.size(); ++n) EXPECT_NEAR(norm(line.points[n] - line.points[n - 1]), tube.spacing, 1e-12);
+        for (std::size_t n = 1; n < line.points.size(); ++n)
+            EXPECT_NEAR(norm(line.points[n] - line.points[n - 1]), tube.spacing, 1e-12);
     }
 }
 

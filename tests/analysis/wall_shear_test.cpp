@@ -28,8 +28,9 @@ WallPlaces places_around(const PoiseuilleTube& tube, double axial, int count) {
 TEST(WallShear, OfAParabolaIsPoiseuilles) {
     const PoiseuilleTube tube;
     const WallPlaces places = places_around(tube, 4.5e-3, 24);
-    const auto stress =
-        flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; }).shear_stress;
+    const auto stress = flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) {
+                            return 3.5e-3;
+                        }).shear_stress;
     const double exact = tube.wall_stress(3.5e-3);
     for (std::size_t k = 0; k < stress.size(); ++k) {
         EXPECT_NEAR(dot(stress[k], tube.axis()) / exact, 1, 0.01) << k;   // with the stream
@@ -75,7 +76,8 @@ TEST(WallShear, OfPartsLeavesOutTheOtherSideOfACarina) {
         parts.flow.shear_stress.push_back({100, 100, 0});
         parts.flow.pressure.push_back(100);
     }
-    const WallFlow flow = flow_of_parts(parts, {{{0.5e-3, 0.5e-3, 0}, {0.5e-3, 5e-3, 0}}, {{0, 0, 1}, {0, 0, 1}}}, 0.15e-3);
+    const WallFlow flow =
+        flow_of_parts(parts, {{{0.5e-3, 0.5e-3, 0}, {0.5e-3, 5e-3, 0}}, {{0, 0, 1}, {0, 0, 1}}}, 0.15e-3);
     EXPECT_NEAR(flow.shear_stress[0].x, 1.5, 3e-3);
     EXPECT_TRUE(std::isnan(flow.pressure[1]));   // where there is no wall
 }
@@ -85,12 +87,14 @@ TEST(WallShear, NeedsNoDistancesWhereTheSurfaceHasPoints) {
     for (double x = 0; x < tube.length; x += 0.4 * tube.reach())
         for (int k = 0; k < 16; ++k) {
             const double angle = 2 * std::numbers::pi * k / 16;
-            tube.wall.points.push_back(tube.motion.place({x, tube.radius * std::cos(angle), tube.radius * std::sin(angle)}));
+            tube.wall.points.push_back(
+                tube.motion.place({x, tube.radius * std::cos(angle), tube.radius * std::sin(angle)}));
         }
     tube.wall.distance = [](const Vec3&) -> double { throw std::logic_error("nobody may ask"); };
     tube.wall.normal = [](const Vec3&) -> Vec3 { throw std::logic_error("nobody may ask"); };
     const WallPlaces places = places_around(tube, 4.5e-3, 24);
-    const WallFlow flow = flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
+    const WallFlow flow =
+        flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [](double) { return 3.5e-3; });
     for (std::size_t k = 0; k < places.position.size(); ++k) {
         EXPECT_NEAR(dot(flow.shear_stress[k], tube.axis()) / tube.wall_stress(3.5e-3), 1, 0.01) << k;
         EXPECT_NEAR(flow.pressure[k], tube.pressure(places.position[k]), 1e-6) << k;
@@ -103,9 +107,9 @@ TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {
     std::vector<double> asked;
     const auto stress = flow_at_wall(tube.fluid, *tube.frame, places, tube.reach(), tube.wall, [&](double rate) {
 #pragma omp critical
-        asked.push_back(rate);
-        return 1e-6 * rate;
-    }).shear_stress;
+                            asked.push_back(rate);
+                            return 1e-6 * rate;
+                        }).shear_stress;
     ASSERT_EQ(asked.size(), 3u);
     const double rate = 4 * tube.mean_speed / tube.radius;
     for (double r : asked) EXPECT_NEAR(r / rate, 1, 0.01);
@@ -114,8 +118,10 @@ TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {
 
 TEST(WallShear, WithoutBloodNearbyThereIsNone) {
     const PoiseuilleTube tube;
-    const auto stress = flow_at_wall(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(),
-                                          tube.wall, [](double) { return 1.0; }).shear_stress;
+    const auto stress =
+        flow_at_wall(tube.fluid, *tube.frame, places_around(tube, 0.03, 2), tube.reach(), tube.wall, [](double) {
+            return 1.0;
+        }).shear_stress;
     for (const Vec3& s : stress) EXPECT_TRUE(std::isnan(s.x));
 }
 

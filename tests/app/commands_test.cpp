@@ -27,7 +27,8 @@ std::string content(const fs::path& path) {
 class Commands : public ::testing::Test {
 protected:
     void SetUp() override {
-        folder_ = fs::temp_directory_path() / fmt::format("patency_app_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder_ = fs::temp_directory_path() /
+                  fmt::format("patency_app_{}", ::testing::UnitTest::GetInstance()->current_test_info()->name());
         fs::remove_all(folder_);
         fs::create_directories(folder_);
     }
@@ -73,7 +74,8 @@ output: {interval: 0.5 ms}
     EXPECT_EQ(run.exit_code, 0) << run.output;
     EXPECT_TRUE(fs::exists(folder_ / "out" / "frames" / "block_000002.vtp"));
     EXPECT_NE(content(folder_ / "out" / "summary.json").find("largest_penetration_m"), std::string::npos);
-    const std::string summary = content(folder_ / "out" / "summary.json"), energies = content(folder_ / "out" / "energies.csv");
+    const std::string summary = content(folder_ / "out" / "summary.json"),
+                      energies = content(folder_ / "out" / "energies.csv");
     EXPECT_EQ(patency("run " + deck + " --fresh --threads 2 -o " + out()).exit_code, 0);
     EXPECT_EQ(content(folder_ / "out" / "summary.json"), summary) << "the same numbers for any number of threads";
     EXPECT_EQ(content(folder_ / "out" / "energies.csv"), energies);
@@ -113,27 +115,34 @@ TEST_F(Commands, a_surface_that_is_not_there_is_7_and_one_that_is_no_vessel_4) {
     text.replace(text.find(shape), shape.size(), "surface: lumen.stl, unit: mm");
     text.replace(text.find("initial: {velocity: parabola, speed: \"0.11 m/s\", pressure: linear}\n"), 66, "");
     EXPECT_EQ(patency("check " + write(text)).exit_code, 7);
-    std::ofstream(folder_ / "lumen.stl") << "solid flake\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid flake\n";
+    std::ofstream(folder_ / "lumen.stl") << "solid flake\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 "
+                                            "0\nvertex 0 1 0\nendloop\nendfacet\nendsolid flake\n";
     EXPECT_EQ(patency("check " + write(text)).exit_code, 4);
     EXPECT_EQ(patency("estimate " + write(text)).exit_code, 4);
 }
 
 TEST_F(Commands, flow_writes_its_results) {
-    const Result result = patency(fmt::format("flow {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
+    const Result result = patency(
+        fmt::format("flow {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    for (const char* name : {"summary.json", "timing.json", "waveforms.csv", "log.txt", "case.resolved.yaml", "fluid.pvd", "checkpoint/flow.h5"})
+    for (const char* name : {"summary.json", "timing.json", "waveforms.csv", "log.txt", "case.resolved.yaml",
+                             "fluid.pvd", "checkpoint/flow.h5"})
         EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
 }
 
 TEST_F(Commands, run_puts_its_stages_into_folders_and_what_they_say_together) {
-    const Result result = patency(fmt::format("run {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
+    const Result result = patency(
+        fmt::format("run {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out()));
     EXPECT_EQ(result.exit_code, 0) << result.output;
     for (const char* name : {"summary.json", "timing.json", "log.txt", "before/summary.json", "before/waveforms.csv"})
         EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
     EXPECT_NE(content(folder_ / "out" / "summary.json").find("\"before\""), std::string::npos);
     // Again: it goes on from its end, and says the same.
     const std::string first = content(folder_ / "out" / "summary.json");
-    EXPECT_EQ(patency(fmt::format("run {} -o {} --threads 1 --set 'numerics.duration=1 ms'", write(ChannelDeck{}.text()), out())).exit_code, 0);
+    EXPECT_EQ(patency(fmt::format("run {} -o {} --threads 1 --set 'numerics.duration=1 ms'",
+                                  write(ChannelDeck{}.text()), out()))
+                  .exit_code,
+              0);
     EXPECT_EQ(content(folder_ / "out" / "summary.json"), first);
 }
 
@@ -162,7 +171,8 @@ TEST_F(Commands, a_flow_that_runs_away_is_5) {
 }
 
 TEST_F(Commands, an_interrupt_is_130_and_a_termination_143) {
-    const std::string deck = write(ChannelDeck{.across = 25, .duration = "10 s"}.text());   // minutes, were it not stopped
+    const std::string deck =
+        write(ChannelDeck{.across = 25, .duration = "10 s"}.text());   // minutes, were it not stopped
     const auto stopped_by = [&](int signal) {
         const pid_t child = fork();
         if (child == 0) {
@@ -183,7 +193,8 @@ TEST_F(Commands, an_interrupt_is_130_and_a_termination_143) {
 }
 
 TEST_F(Commands, a_killed_run_goes_on_to_the_same_summary) {
-    const std::string deck = write(ChannelDeck{.duration = "60 ms", .more = "output: {checkpoint_interval: \"1 ms\"}\n"}.text());
+    const std::string deck =
+        write(ChannelDeck{.duration = "60 ms", .more = "output: {checkpoint_interval: \"1 ms\"}\n"}.text());
     const std::string whole = (folder_ / "whole").string();
     ASSERT_EQ(patency(fmt::format("flow {} -o {} --threads 2", deck, whole)).exit_code, 0);
 
@@ -206,11 +217,13 @@ TEST_F(Commands, a_killed_run_goes_on_to_the_same_summary) {
 
 TEST_F(Commands, another_decks_checkpoint_is_8_unless_begun_anew) {
     const std::string deck = write(ChannelDeck{}.text());
-    const auto flow = [&](const std::string& more) { return patency(fmt::format("flow {} -o {} --threads 1 {}", deck, out(), more)).exit_code; };
+    const auto flow = [&](const std::string& more) {
+        return patency(fmt::format("flow {} -o {} --threads 1 {}", deck, out(), more)).exit_code;
+    };
     EXPECT_EQ(flow("--set 'numerics.duration=1 ms'"), 0);
     EXPECT_EQ(flow("--set 'numerics.duration=2 ms'"), 8);
     EXPECT_EQ(flow("--set 'numerics.duration=2 ms' --fresh"), 0);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

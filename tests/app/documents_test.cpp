@@ -51,8 +51,12 @@ TEST(Documents, NoLineOfTheManualIsTakenForARequest) {
 
 /// What bash offers in an empty folder for words of which the last is being written.
 std::string offered(const std::string& words, int at) {
-    const std::string script = fmt::format("cd $(mktemp -d); trap 'rmdir $PWD' EXIT; source <('{}' completion bash); COMP_WORDS=({}); COMP_CWORD={}; _patency; echo \"${{COMPREPLY[*]}}\"", PATENCY_BINARY, words, at);
-    std::FILE* pipe = popen(fmt::format("bash -c {}", "'" + std::regex_replace(script, std::regex("'"), "'\\''") + "'").c_str(), "r");
+    const std::string script = fmt::format(
+        "cd $(mktemp -d); trap 'rmdir $PWD' EXIT; source <('{}' completion bash); COMP_WORDS=({}); COMP_CWORD={}; "
+        "_patency; echo \"${{COMPREPLY[*]}}\"",
+        PATENCY_BINARY, words, at);
+    std::FILE* pipe =
+        popen(fmt::format("bash -c {}", "'" + std::regex_replace(script, std::regex("'"), "'\\''") + "'").c_str(), "r");
     std::string output;
     char chunk[4096];
     while (const std::size_t n = std::fread(chunk, 1, sizeof chunk, pipe)) output.append(chunk, n);
@@ -95,7 +99,8 @@ TEST(Documents, ZshCompletesCommandsOptionsWordsAndFiles) {
     EXPECT_NE(zsh_function(zsh, "_patency_stent_show").find("--turn="), zsh.npos);
 }
 
-TEST(Documents, NoTextOfAnOptionEndsItsWordOfZsh) {   // an apostrophe would end it, a bracket the text, a colon the command
+TEST(Documents,
+     NoTextOfAnOptionEndsItsWordOfZsh) {   // an apostrophe would end it, a bracket the text, a colon the command
     std::istringstream lines(patency("completion zsh").output);
     int checked = 0;
     for (std::string line; std::getline(lines, line);) {

@@ -93,7 +93,8 @@ TEST_F(Inspect, ANetworkIsASurfaceWithItsOwnNames) {
     EXPECT_EQ(result.exit_code, 0) << result.output;
     const auto openings = figures()["openings"];
     ASSERT_EQ(openings.size(), 4u);
-    for (const auto& [name, diameter] : {std::pair("inlet", 4.0), {"outlet_large", 3.5}, {"outlet_medium", 3.0}, {"outlet_small", 2.5}})
+    for (const auto& [name, diameter] :
+         {std::pair("inlet", 4.0), {"outlet_large", 3.5}, {"outlet_medium", 3.0}, {"outlet_small", 2.5}})
         EXPECT_NEAR(openings[name]["diameter_mm"].get<double>(), diameter, 0.01 * diameter) << name;
     EXPECT_EQ(figures()["usable"], true);
     EXPECT_EQ(patency(fmt::format("inspect {} --unit cm", file)).exit_code, 2);
@@ -104,8 +105,10 @@ TEST_F(Inspect, ALabelMapIsASurface) {
     for (int k = 0; k < 20; ++k)
         for (int j = 0; j < 20; ++j)
             for (int i = 0; i < 24; ++i) voxels += char(std::hypot(j - 9.3, k - 9.6) < 6 ? 1 : 0);
-    put(folder_ / "tube.mha", "ObjectType = Image\nNDims = 3\nDimSize = 24 20 20\nElementSpacing = 0.25 0.25 0.25\n"
-                              "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + voxels);
+    put(folder_ / "tube.mha",
+        "ObjectType = Image\nNDims = 3\nDimSize = 24 20 20\nElementSpacing = 0.25 0.25 0.25\n"
+        "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
+            voxels);
     const Result result = patency(fmt::format("inspect {} -o {}", (folder_ / "tube.mha").string(), out()));
     EXPECT_EQ(result.exit_code, 0) << result.output;
     EXPECT_NEAR(figures()["openings"]["inlet"]["diameter_mm"].get<double>(), 3, 0.06);

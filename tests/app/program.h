@@ -24,6 +24,8 @@ inline Result run_command(const std::string& command) {
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     return result;
 }
-inline Result patency(const std::string& arguments) { return run_command(fmt::format("'{}' {}", PATENCY_BINARY, arguments)); }
+inline Result patency(const std::string& arguments) {
+    return run_command(fmt::format("'{}' {}", PATENCY_BINARY, arguments));
+}
 
 }   // namespace patency

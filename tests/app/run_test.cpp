@@ -39,7 +39,9 @@ numerics: {spacing: "0.32 mm", duration: "1 s"}
     }
     fs::path deck() const { return folder_ / "case.yaml"; }
     fs::path out() const { return folder_ / "out"; }
-    Result run(const std::string& more = "") const { return patency(fmt::format("run {} -o {} {}", deck().string(), out().string(), more)); }
+    Result run(const std::string& more = "") const {
+        return patency(fmt::format("run {} -o {} {}", deck().string(), out().string(), more));
+    }
     std::string content(const fs::path& path) const {
         std::ifstream file(path);
         return {std::istreambuf_iterator<char>(file), {}};
@@ -55,7 +57,8 @@ TEST_F(Run, AStentThatTheLibraryLacksIsAMistakeOfTheDeck) {
             const std::string where = command == "check" ? "" : " -o " + out().string();
             const Result result = patency(fmt::format("{} {}{} --set {}", command, deck().string(), where, setting));
             EXPECT_EQ(result.exit_code, 3) << result.output;
-            EXPECT_NE(result.output.find(setting.substr(0, setting.find('=')) + ": "), std::string::npos) << result.output;
+            EXPECT_NE(result.output.find(setting.substr(0, setting.find('=')) + ": "), std::string::npos)
+                << result.output;
             EXPECT_EQ(result.output.find("the deck is right"), std::string::npos) << result.output;
             EXPECT_FALSE(fs::exists(out()));
         }
@@ -86,7 +89,8 @@ TEST_F(Run, AStentOpensTheLesionAndStagesThatEndedAreKept) {
     EXPECT_EQ(summary["after"]["branches"][0]["name"], "tube");
     EXPECT_EQ(summary["deploy"]["mode"], "geometric");
     // The estimate's bands, before and where the lesion was; without mechanics only the blood is made of something.
-    const auto band = summary["estimate"]["lesions"][0]["ffr_band"], band_after = summary["estimate_after"]["at_lesions"][0]["ffr_band"];
+    const auto band = summary["estimate"]["lesions"][0]["ffr_band"],
+               band_after = summary["estimate_after"]["at_lesions"][0]["ffr_band"];
     const double estimated = summary["estimate_after"]["at_lesions"][0]["ffr"];
     EXPECT_LT(band[0], band[1]);
     EXPECT_LE(band_after[0].get<double>(), estimated);
@@ -122,8 +126,10 @@ TEST_F(Run, AStentThatCannotGoThereIsRefusedBeforeTheFlow) {
 
 TEST_F(Run, CheckRefusesAMaterialThatNobodyKnows) {
     const auto check = [&](const std::string& layer, const std::string& metal) {
-        return patency(fmt::format("check {} --set deployment.mode=balloon --set stent.material.name={} --set wall.plaque=fills "
-                                   "--set 'wall.layers.plaque.name={}'", deck().string(), metal, layer));
+        return patency(
+            fmt::format("check {} --set deployment.mode=balloon --set stent.material.name={} --set wall.plaque=fills "
+                        "--set 'wall.layers.plaque.name={}'",
+                        deck().string(), metal, layer));
     };
     const Result right = check("fibrous_plaque", "L605");
     EXPECT_EQ(right.exit_code, 0) << right.output;

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 class Sweep : public ::testing::Test {
 protected:
     Sweep() {
-        std::ofstream(folder_ / "tube.json") << R"({"unit": "mm", "tubes": [{"name": "tube", "points": [[0, 0, 0, 1.5], [10, 0, 0, 1.5], [20, 0, 0, 1.5], [30, 0, 0, 1.5]]}]})";
+        std::ofstream(folder_ / "tube.json")
+            << R"({"unit": "mm", "tubes": [{"name": "tube", "points": [[0, 0, 0, 1.5], [10, 0, 0, 1.5], [20, 0, 0, 1.5], [30, 0, 0, 1.5]]}]})";
         std::ofstream(deck()) << R"(version: 1
 case: {name: tube}
 geometry: {network: tube.json, lesion: {branch: tube, position: "15 mm", length: "5 mm", diameter_stenosis_percent: 50}}
@@ -32,7 +33,9 @@ numerics: {spacing: "0.3 mm", duration: "1 s"}
     }
     fs::path deck() const { return folder_ / "case.yaml"; }
     fs::path out() const { return folder_ / "out"; }
-    Result sweep(const std::string& more) const { return patency(fmt::format("sweep {} -o {} --command estimate {}", deck().string(), out().string(), more)); }
+    Result sweep(const std::string& more) const {
+        return patency(fmt::format("sweep {} -o {} --command estimate {}", deck().string(), out().string(), more));
+    }
 
     ScratchFolder folder_;
     const std::string stenoses_ = "--set geometry.lesion.diameter_stenosis_percent=";
@@ -41,9 +44,12 @@ numerics: {spacing: "0.3 mm", duration: "1 s"}
 TEST_F(Sweep, ATighterLesionHasALowerFfr) {
     const Result done = sweep(stenoses_ + "40,60 --set 'blood.viscosity=3 mPa s,4 mPa s' --set case.name=a,b --jobs 2");
     ASSERT_EQ(done.exit_code, 0) << done.output;
-    const auto ffr = [&](const std::string& name) { return read_summary(out() / name / "summary.json")["ffr"]["lesion"].get<double>(); };
+    const auto ffr = [&](const std::string& name) {
+        return read_summary(out() / name / "summary.json")["ffr"]["lesion"].get<double>();
+    };
     for (const char* rest : {"viscosity=3_mPa_s,name=a", "viscosity=4_mPa_s,name=b"})
-        EXPECT_LT(ffr(fmt::format("diameter_stenosis_percent=60,{}", rest)), ffr(fmt::format("diameter_stenosis_percent=40,{}", rest)));
+        EXPECT_LT(ffr(fmt::format("diameter_stenosis_percent=60,{}", rest)),
+                  ffr(fmt::format("diameter_stenosis_percent=40,{}", rest)));
     EXPECT_EQ(read_summary(out() / "sweep.json")["runs"].size(), 8u);
     EXPECT_TRUE(fs::exists(out() / "sweep.csv"));
     EXPECT_TRUE(fs::exists(out() / "report.html"));
@@ -58,7 +64,8 @@ TEST_F(Sweep, GrowsAndDoesNothingTwice) {
     ASSERT_EQ(more.exit_code, 0) << more.output;
     EXPECT_NE(more.output.find("3 runs, 2 of them done before"), std::string::npos) << more.output;
     EXPECT_EQ(fs::last_write_time(out() / "diameter_stenosis_percent=40/summary.json"), then);
-    const Result other = sweep(stenoses_ + "40,60 --set 'blood.density=1050 kg/m^3'");   // other decks under the same names
+    const Result other =
+        sweep(stenoses_ + "40,60 --set 'blood.density=1050 kg/m^3'");   // other decks under the same names
     EXPECT_NE(other.output.find("2 runs, 0 of them done before"), std::string::npos) << other.output;
 }
 
@@ -83,7 +90,8 @@ TEST_F(Sweep, AMistakeInAnyDeckStopsItBeforeItBegins) {
 }
 
 TEST_F(Sweep, AStopIsHandedOnAndTheRestIsDoneLater) {
-    const std::string command = fmt::format("sweep {} -o {} --command flow --jobs 1 --threads 1 {}30,40", deck().string(), out().string(), stenoses_);
+    const std::string command = fmt::format("sweep {} -o {} --command flow --jobs 1 --threads 1 {}30,40",
+                                            deck().string(), out().string(), stenoses_);
     const Result stopped = patency(command + fmt::format(" & sleep 2; touch {}/stop; wait $!", out().string()));
     EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
     EXPECT_TRUE(read_summary(out() / "sweep.json")["runs"][1]["exit_code"].is_null());

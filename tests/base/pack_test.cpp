@@ -28,7 +28,8 @@ std::vector<T> numbers(std::size_t count, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> mantissa(-2, 2), exponent(-60, 60);
     using L = std::numeric_limits<T>;
-    std::vector<T> values{T(0), -T(0), T(1), T(-1), L::infinity(), -L::infinity(), L::quiet_NaN(), L::denorm_min(), L::max(), L::min()};
+    std::vector<T> values{T(0),           -T(0),           T(1),     T(-1),   L::infinity(), -L::infinity(),
+                          L::quiet_NaN(), L::denorm_min(), L::max(), L::min()};
     while (values.size() < count) values.push_back(T(mantissa(random) * std::exp2(exponent(random))));
     std::shuffle(values.begin(), values.end(), random);
     return values;
@@ -104,7 +105,8 @@ TEST(CoordinateDifference, OfFixedPointIsExactAndWrapsAround) {
     // Floats whose last bits a subtraction of floats would lose, and bit patterns that are NaNs.
     EXPECT_EQ(coordinate_difference(as_record(2000000001), as_record(2000000000)), 1.0f);
     EXPECT_EQ(coordinate_difference(as_record(-1), as_record(-3)), 2.0f);
-    EXPECT_EQ(coordinate_difference(as_record(INT32_MIN), as_record(INT32_MAX)), 1.0f);   // across the face of a periodic box
+    EXPECT_EQ(coordinate_difference(as_record(INT32_MIN), as_record(INT32_MAX)),
+              1.0f);   // across the face of a periodic box
     EXPECT_EQ(coordinate_difference(as_record(INT32_MAX), as_record(INT32_MIN)), -1.0f);
     std::mt19937 random(5);
     for (int k = 0; k < 1000; ++k) {
@@ -130,4 +132,4 @@ TEST(CoordinateDifference, OfPacksIsThatOfScalars) {
     EXPECT_EQ(coordinate_difference(3.5, 1.25), 2.25);
 }
 
-}  // namespace
+}   // namespace

@@ -40,7 +40,8 @@ TEST_F(Threads, SumsHaveTheSameBits) {
         const double one = sum_of(count, value);
         for (int threads = 2; threads <= 4; ++threads) {
             omp_set_num_threads(threads);
-            for (int repeat = 0; repeat < 5; ++repeat) EXPECT_EQ(sum_of(count, value), one) << count << " values, " << threads << " threads";
+            for (int repeat = 0; repeat < 5; ++repeat)
+                EXPECT_EQ(sum_of(count, value), one) << count << " values, " << threads << " threads";
         }
     }
 }
@@ -48,8 +49,9 @@ TEST_F(Threads, SumsHaveTheSameBits) {
 TEST_F(Threads, ReductionsCombineInOrder) {
     omp_set_num_threads(4);
     const std::size_t count = 3 * block_size + 5;
-    const auto text = reduce(count, std::string(), [](std::size_t i) { return std::string(1, char('a' + i % 26)); },
-                             [](const std::string& a, const std::string& b) { return a + b; });
+    const auto text = reduce(
+        count, std::string(), [](std::size_t i) { return std::string(1, char('a' + i % 26)); },
+        [](const std::string& a, const std::string& b) { return a + b; });
     ASSERT_EQ(text.size(), count);
     for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(text[i], char('a' + i % 26)) << i;
 }
@@ -78,4 +80,4 @@ TEST(AlignedVector, StartsOnACacheLineAndKeepsItsStorage) {
     EXPECT_EQ(v[99999], 1.0f);
 }
 
-}  // namespace
+}   // namespace

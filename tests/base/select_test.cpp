@@ -105,7 +105,8 @@ TEST(StoreSideBySide, TurnsRowsOfAnyNumberAndLength) {
             store_side_by_side(rows, count, out.data());
             for (std::size_t l = 0; l < lanes; ++l)
                 for (std::size_t k = 0; k < count; ++k)
-                    ASSERT_EQ(out[k * lanes + l], rows[l][k]) << lanes << " lanes, " << count << " long: " << l << ", " << k;
+                    ASSERT_EQ(out[k * lanes + l], rows[l][k])
+                        << lanes << " lanes, " << count << " long: " << l << ", " << k;
             EXPECT_EQ(out.back(), untouched) << "beyond the next multiple of four";
         }
 }
@@ -123,4 +124,4 @@ TEST(AlignedVector, ExtendKeepsWhatWasThere) {
     EXPECT_EQ(vector[2], 2u);
 }
 
-}  // namespace
+}   // namespace

@@ -11,7 +11,9 @@ using namespace patency;
 namespace {
 
 Mat3 full(const Sym<double>& s) { return {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}; }
-void expect_near(const Mat3& a, const Mat3& b) { EXPECT_LT(std::sqrt(double_dot(a - b, a - b)), 1e-13 * std::sqrt(double_dot(b, b))); }
+void expect_near(const Mat3& a, const Mat3& b) {
+    EXPECT_LT(std::sqrt(double_dot(a - b, a - b)), 1e-13 * std::sqrt(double_dot(b, b)));
+}
 
 const Sym<double> a{2.0, 3.5, 1.25, 0.5, -0.25, 0.75};
 const Mat3 m{{1, 0.2, -0.3}, {0.4, 0.9, 0.1}, {-0.7, 0.6, 1.1}};

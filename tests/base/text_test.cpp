@@ -40,14 +40,12 @@ TEST(Text, UTF8IsRecognisedAndNeverCut) {
     for (std::size_t length = 0; length < 8; ++length) EXPECT_TRUE(is_utf8_text(shortened("µµµµ", length))) << length;
 }
 
-TEST(Text, QuotesAreEscaped) {
-    EXPECT_EQ(double_quoted("a\"b\\c\nd\x01"), R"("a\"b\\c\nd\u0001")");
-}
+TEST(Text, QuotesAreEscaped) { EXPECT_EQ(double_quoted("a\"b\\c\nd\x01"), R"("a\"b\\c\nd\u0001")"); }
 
 TEST(Text, NamesAreSafeInPaths) {
     EXPECT_TRUE(is_plain_name("outlet_1-b"));
     for (const char* name : {"", "a b", "../a", "a.b", "a/b", "ä"}) EXPECT_FALSE(is_plain_name(name)) << name;
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -52,7 +52,8 @@ TEST(Units, ASpellingNamesOneUnit) {
 TEST(Units, ConversionsFollowTheDefinitions) {
     const auto si = [](std::string_view text, Dimension d) { return parse_quantity(text, d); };
     EXPECT_DOUBLE_EQ(si("93 mmHg", Dimension::pressure), 93 * 133.322387415);
-    EXPECT_DOUBLE_EQ(si("760 mmHg", Dimension::pressure) / si("1 atm", Dimension::pressure), 760 * 133.322387415 / 101325);
+    EXPECT_DOUBLE_EQ(si("760 mmHg", Dimension::pressure) / si("1 atm", Dimension::pressure),
+                     760 * 133.322387415 / 101325);
     EXPECT_DOUBLE_EQ(si("10 dyn/cm^2", Dimension::pressure), 1);
     EXPECT_DOUBLE_EQ(si("1 bar", Dimension::pressure), 1e5);
     EXPECT_DOUBLE_EQ(si("2 um", Dimension::length), 2e-6);
@@ -76,11 +77,14 @@ TEST(Units, ConversionsFollowTheDefinitions) {
 }
 
 TEST(Units, SpellingsOfOneUnitAreOne) {
-    for (const char* text : {"7 cm^3/s", "7 cm³/s", "7 cm3/s", "7cm^3 / s", "7 cm ^3/s", " 7 mL/s ", "7 ml/s", "+7 cm³∕s"})
+    for (const char* text :
+         {"7 cm^3/s", "7 cm³/s", "7 cm3/s", "7cm^3 / s", "7 cm ^3/s", " 7 mL/s ", "7 ml/s", "+7 cm³∕s"})
         EXPECT_DOUBLE_EQ(parse_quantity(text, Dimension::flow), 7e-6) << text;
-    for (const char* text : {"4 mPa s", "4 mPa·s", "4 mPa⋅s", "4 mPa*s", "4 mPa * s", "4\u00a0mPa\u00a0s", "4e0 mPa  s"})
+    for (const char* text :
+         {"4 mPa s", "4 mPa·s", "4 mPa⋅s", "4 mPa*s", "4 mPa * s", "4\u00a0mPa\u00a0s", "4e0 mPa  s"})
         EXPECT_DOUBLE_EQ(parse_quantity(text, Dimension::viscosity), 0.004) << text;
-    for (const char* text : {"5 um", "5 µm", "5 μm", "5μm"}) EXPECT_DOUBLE_EQ(parse_quantity(text, Dimension::length), 5e-6) << text;
+    for (const char* text : {"5 um", "5 µm", "5 μm", "5μm"})
+        EXPECT_DOUBLE_EQ(parse_quantity(text, Dimension::length), 5e-6) << text;
     EXPECT_DOUBLE_EQ(parse_quantity("30°", Dimension::angle), std::numbers::pi / 6);
     EXPECT_DOUBLE_EQ(parse_quantity("1 mmHg/(mL/s)", Dimension::resistance), 133322387.415);
 }
@@ -93,13 +97,17 @@ TEST(Units, LettersOfDifferentSizeDiffer) {
 }
 
 TEST(Units, ARefusalSaysWhatIsNeeded) {
-    EXPECT_EQ(refusal("100 mm", Dimension::pressure), "100 mm is a length; a pressure is needed, for example \"100 mmHg\"");
-    EXPECT_EQ(refusal("9.81 m/s^2", Dimension::time), "9.81 m/s^2 is an acceleration; a time is needed, for example \"0.1 s\"");
+    EXPECT_EQ(refusal("100 mm", Dimension::pressure),
+              "100 mm is a length; a pressure is needed, for example \"100 mmHg\"");
+    EXPECT_EQ(refusal("9.81 m/s^2", Dimension::time),
+              "9.81 m/s^2 is an acceleration; a time is needed, for example \"0.1 s\"");
     EXPECT_EQ(refusal("5", Dimension::length), "5 has no unit; a length is needed, for example \"1 mm\"");
     EXPECT_EQ(refusal("0", Dimension::length), "0 has no unit; a length is needed, for example \"1 mm\"");
-    for (const char* text : {"", " ", "mm", "- 5 mm", "+-5 mm", "--5 mm", "five mm", "0x1F mm", "1..2 mm", "1e mm", "1e5e5 mm", "1 2 mm"})
+    for (const char* text :
+         {"", " ", "mm", "- 5 mm", "+-5 mm", "--5 mm", "five mm", "0x1F mm", "1..2 mm", "1e mm", "1e5e5 mm", "1 2 mm"})
         EXPECT_NE(refusal(text, Dimension::length), "accepted") << text;
-    for (const char* text : {"nan mm", "inf mm", "-inf mm", "1e999 mm"}) EXPECT_NE(refusal(text, Dimension::length), "accepted") << text;
+    for (const char* text : {"nan mm", "inf mm", "-inf mm", "1e999 mm"})
+        EXPECT_NE(refusal(text, Dimension::length), "accepted") << text;
     EXPECT_NE(refusal("1e308 g/cm^3", Dimension::density), "accepted") << "overflows in SI";
     EXPECT_NE(refusal("1,5 mm", Dimension::length).find("decimal comma"), std::string::npos);
     EXPECT_NE(refusal(std::string(100000, '9') + " furlongs", Dimension::length), "accepted");
@@ -156,5 +164,5 @@ TEST(Units, PatternsAcceptWhatIsParsed) {
     EXPECT_TRUE(std::regex_match("7 µm", std::regex(quantity_pattern(Dimension::length))));
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -36,7 +36,8 @@ struct Body {
     Vec3 load() { return load_by(*surface, solid.particles); }
     Vec3 torque() const {
         Vec3 sum{};
-        for (std::size_t i = 0; i < solid.particles.size(); ++i) sum += cross(solid.particles.position[i], solid.particles.load[i]);
+        for (std::size_t i = 0; i < solid.particles.size(); ++i)
+            sum += cross(solid.particles.position[i], solid.particles.load[i]);
         return sum;
     }
 };
@@ -48,14 +49,17 @@ protected:
     // A round body pushed into a block of a finer spacing, off its middle.
     bool planar = GetParam();
     Body block{fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, 0.7 * spacing, planar), 0.7 * spacing, planar};
-    Body ball{planar ? fill_cylinder({0.4e-3, 4e-3, 0}, {0, 0, 0}, 0, 4e-3, spacing, true) : fill_sphere({0.4e-3, 4e-3, 0.3e-3}, 4e-3, spacing), spacing, planar};
+    Body ball{planar ? fill_cylinder({0.4e-3, 4e-3, 0}, {0, 0, 0}, 0, 4e-3, spacing, true)
+                     : fill_sphere({0.4e-3, 4e-3, 0.3e-3}, 4e-3, spacing),
+              spacing, planar};
 };
 INSTANTIATE_TEST_SUITE_P(Surface, Contacts, ::testing::Values(true, false));
 
 }   // namespace
 
 TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
-    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .damping = 0, .step = step});
+    const auto contact =
+        make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .damping = 0, .step = step});
     EXPECT_EQ(contact->report().touching, 0u) << "before anything was looked at";
     block.move({}), ball.move({0.1e-3, -0.3e-3, 0.05e-3});
     contact->add_forces(0, 0);
@@ -110,14 +114,16 @@ TEST_P(Contacts, WhatLastsIsHeldButNeverPulls) {
 }
 
 TEST_P(Contacts, NothingStandsOff) {
-    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .damping = 0, .step = step});
+    const auto contact =
+        make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .damping = 0, .step = step});
     block.move({}), ball.move({0, 1e-6, 0});
     contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);
 }
 
 TEST_P(Contacts, FrictionOpposesSlidingAndMomentumIsKept) {
-    const auto contact = make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .damping = 0, .step = step});
+    const auto contact =
+        make_surface_contact(*block.surface, *ball.surface, {.friction = 0.3, .damping = 0, .step = step});
     block.move({}), ball.move({0, -0.2e-3, 0});
     for (Vec3& v : ball.solid.particles.velocity) v = {3, 0, 0};
     ball.move({}), block.move({});
@@ -134,7 +140,10 @@ namespace {
 
 /// An element of the top of the block from (-5, -4, -4) to (5, 0, 4) mm whose first side lies on the edge x = 5 mm, y = 0.
 std::size_t split_at_edge(SurfaceElements& mesh) {
-    const auto on_edge = [&](std::uint32_t v) { const Vec3& x = mesh.vertices[v]; return std::abs(x.x - 5e-3) < 1e-9 && std::abs(x.y) < 1e-9 && std::abs(x.z) < 3e-3; };
+    const auto on_edge = [&](std::uint32_t v) {
+        const Vec3& x = mesh.vertices[v];
+        return std::abs(x.x - 5e-3) < 1e-9 && std::abs(x.y) < 1e-9 && std::abs(x.z) < 3e-3;
+    };
     const auto is_top = [&](std::uint32_t v) { return std::abs(mesh.vertices[v].y) < 1e-9; };
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
         auto& [a, b, c] = mesh.elements[e];
@@ -162,9 +171,11 @@ TEST(SurfaceContact, AThinElementTellsNoSide) {
     Body block(fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
     block.move({}), ball.move({});
     const auto& places = ball.surface->position;
-    const Vec3 nearest = *std::min_element(places.begin(), places.end(), [](const Vec3& p, const Vec3& q) { return p.x + p.y < q.x + q.y; });
+    const Vec3 nearest = *std::min_element(places.begin(), places.end(),
+                                           [](const Vec3& p, const Vec3& q) { return p.x + p.y < q.x + q.y; });
     block.move({}), ball.move(middle + 0.1 * spacing * diagonal - nearest);
-    const auto contact = make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
+    const auto contact =
+        make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
     contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);
     block.move({}), ball.move(-0.2 * spacing * diagonal);
@@ -189,16 +200,19 @@ TEST(SurfaceContact, WhatHoversOverAThinStripIsOutside) {
     Body block(fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
     block.move({}), ball.move({});
     const auto& places = ball.surface->position;
-    const Vec3 lowest = *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
+    const Vec3 lowest =
+        *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
     block.move({}), ball.move(middle + 0.01 * in + Vec3{0, 0.1 * spacing, 0} - lowest);
-    const auto contact = make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
+    const auto contact =
+        make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
     contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);
 }
 
 TEST(PlaneContact, PushesOutWhatIsBehind) {
     Body block(fill_box({0, 0, 0}, {5e-3, 4e-3, 0}, spacing, true), spacing, true);
-    const auto contact = make_plane_contact(*block.surface, {0, 0.1e-3, 0}, {0, 1, 0}, {.friction = 0, .damping = 0, .step = step});
+    const auto contact =
+        make_plane_contact(*block.surface, {0, 0.1e-3, 0}, {0, 1, 0}, {.friction = 0, .damping = 0, .step = step});
     block.move({});
     contact->add_forces(0, 0);
     double expected = 0;
@@ -212,7 +226,8 @@ TEST(PlaneContact, PushesOutWhatIsBehind) {
 
 TEST(SelfContact, BothSidesOfARingMeetButItsOwnThicknessDoesNotCount) {
     Body ring(fill_cylinder({}, {}, 6e-3, 9e-3, spacing, true), spacing, true);
-    const auto contact = make_surface_contact(*ring.surface, *ring.surface, {.friction = 0, .damping = 0, .step = step});
+    const auto contact =
+        make_surface_contact(*ring.surface, *ring.surface, {.friction = 0, .damping = 0, .step = step});
     ring.move({});
     contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);

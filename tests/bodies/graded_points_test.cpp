@@ -112,7 +112,8 @@ Lumen with_pockets(Lumen lumen, const std::vector<SignedDistance>& pockets, doub
     lumen.distance = {[=](const Vec3& x) {
                           DistanceSample deepest = vessel.sample(x);
                           for (const SignedDistance& pocket : pockets)
-                              if (const DistanceSample there = pocket.sample(x); there.value < deepest.value) deepest = there;
+                              if (const DistanceSample there = pocket.sample(x); there.value < deepest.value)
+                                  deepest = there;
                           return deepest;
                       },
                       lumen.bounds};
@@ -126,7 +127,8 @@ double nearest_pair(const GradedPoints& p) {
     double nearest = 1;
     for (std::size_t i = 0; i < p.points.size(); ++i)
         for (const std::uint32_t j : rows.row(i))
-            if (j != i && j < p.points.size()) nearest = std::min(nearest, 2 * norm(p.points[i] - p.points[j]) / (p.spacing[i] + p.spacing[j]));
+            if (j != i && j < p.points.size())
+                nearest = std::min(nearest, 2 * norm(p.points[i] - p.points[j]) / (p.spacing[i] + p.spacing[j]));
     return nearest;
 }
 
@@ -138,7 +140,8 @@ std::size_t count_above(const GradedPoints& p, double z) {
 TEST(GradedPoints, StandApartInPocketsOfTheWall) {
     const double width = 0.45e-3, depth = 3.5e-3;
     std::vector<SignedDistance> pockets;
-    for (double x = 1e-3; x < 3e-3; x += 1e-3) pockets.push_back(box_between({x, -width / 2, 0}, {x + width, width / 2, depth}));
+    for (double x = 1e-3; x < 3e-3; x += 1e-3)
+        pockets.push_back(box_between({x, -width / 2, 0}, {x + width, width / 2, depth}));
     const Lumen lumen = with_pockets(taper(), pockets, depth);
     const GradedPoints p = make_graded_points(lumen, make_spacing_field(lumen, graded));
     EXPECT_GT(count_above(p, 1.7e-3), 10u);
@@ -151,7 +154,8 @@ TEST(GradedPoints, DoNotFollowEachOtherIntoASlit) {
     const SignedDistance slit = box_between({1e-3, -width / 2, 0}, {7e-3, width / 2, depth});
     Lumen lumen = with_pockets(taper(), {slit}, depth);
     lumen.volume += 6e-3 * width * (depth - 1.1e-3);   // above the taper, whose mean radius that is
-    const SpacingField field = make_spacing_field(lumen, {.smallest = 0.999 * spacing, .largest = spacing, .across = 10});
+    const SpacingField field =
+        make_spacing_field(lumen, {.smallest = 0.999 * spacing, .largest = spacing, .across = 10});
     const GradedPoints p = make_graded_points(lumen, field);
     EXPECT_GT(count_above(p, 1.7e-3), 300u);
     EXPECT_GT(nearest_pair(p), 0.5);
@@ -163,7 +167,8 @@ TEST(GradedPoints, NeedNoDistanceFarFromTheWall) {
     Lumen whole = taper(), frugal = whole;
     const SignedDistance distance = whole.distance;
     int far = 0;
-    frugal.distance = {[&](const Vec3& x) { return distance.sample(x); }, distance.bounds(), [&](const Vec3& x, double reach) {
+    frugal.distance = {[&](const Vec3& x) { return distance.sample(x); }, distance.bounds(),
+                       [&](const Vec3& x, double reach) {
                            const DistanceSample s = distance.sample(x);
                            if (std::abs(s.value) < reach) return s;
                            EXPECT_LT(s.value, 0);   // nobody asks about places far outside
@@ -176,7 +181,8 @@ TEST(GradedPoints, NeedNoDistanceFarFromTheWall) {
     EXPECT_GT(far, 500);
     ASSERT_EQ(is.points.size(), must.points.size());
     double largest = 0;
-    for (std::size_t i = 0; i < is.points.size(); ++i) largest = std::max(largest, norm(is.points[i] - must.points[i]) / must.spacing[i]);
+    for (std::size_t i = 0; i < is.points.size(); ++i)
+        largest = std::max(largest, norm(is.points[i] - must.points[i]) / must.spacing[i]);
     EXPECT_LT(largest, 0.02);
 }
 

@@ -24,7 +24,9 @@ struct Duct {
     Duct() {
         ends[0].name = "inlet", ends[0].normal = {-1, 0, 0};
         ends[1].name = "outlet", ends[1].centre = {length, 0, 0}, ends[1].normal = {1, 0, 0};
-        for (OpenEnd& end : ends) end.area = side * side, end.mean_square = side * side / 6, end.reach = side, end.buffer_length = buffer_length;
+        for (OpenEnd& end : ends)
+            end.area = side * side, end.mean_square = side * side / 6, end.reach = side,
+            end.buffer_length = buffer_length;
         std::vector<Vec3> points;
         for (double x = spacing / 2 - buffer_length; x < length + buffer_length; x += spacing)
             for (double y = (spacing - side) / 2; y < side / 2; y += spacing)
@@ -38,7 +40,9 @@ struct Duct {
     }
     void find() { find_members(fluid, spacing, ends); }
     void exchange() { exchange_particles(fluid, spacing, tail, ends); }
-    std::int64_t count(std::int32_t opening) const { return std::count(fluid.opening.begin(), fluid.opening.end(), opening); }
+    std::int64_t count(std::int32_t opening) const {
+        return std::count(fluid.opening.begin(), fluid.opening.end(), opening);
+    }
     std::size_t nearest(const Vec3& x) const {
         std::size_t best = 0;
         for (std::size_t i = 0; i < fluid.size(); ++i)
@@ -104,7 +108,7 @@ TEST(OpenEnd, FlowOfALinearVelocityIsThatAtThePlane) {
     EXPECT_NEAR(duct.ends[1].flow, side * side, 1e-14);   // the lattice is even about the plane and the axis
 }
 
-TEST(OpenEnd, FlowOfAParabolaIsExact) {                                                          // THEORY.md (8.9)
+TEST(OpenEnd, FlowOfAParabolaIsExact) {   // THEORY.md (8.9)
     Duct duct;
     duct.find();
     const double a = 2, b = 0.3;
@@ -117,15 +121,16 @@ TEST(OpenEnd, FlowOfAParabolaIsExact) {                                         
     EXPECT_NEAR(duct.ends[1].flow, side * side * (a - b * side * side / 6), 1e-12 * side * side);
 }
 
-TEST(OpenEnd, WhatABufferMakesOfTheFlowIsLearntAndTakenOff) {                                      // THEORY.md (8.10)
+TEST(OpenEnd, WhatABufferMakesOfTheFlowIsLearntAndTakenOff) {   // THEORY.md (8.10)
     Duct duct;
     duct.find();
     OpenEnd& end = duct.ends[1];
-    for (std::size_t i = 0; i < duct.fluid.size(); ++i) duct.fluid.velocity[i] = {duct.fluid.opening[i] == 2 ? 0.9 : 1.0, 0, 0};
+    for (std::size_t i = 0; i < duct.fluid.size(); ++i)
+        duct.fluid.velocity[i] = {duct.fluid.opening[i] == 2 ? 0.9 : 1.0, 0, 0};
     measure_flow(end, duct.fluid, 0, 0);
     EXPECT_NEAR(end.flow, 0.95 * side * side, 1e-12);   // half of the particles are the buffer's
     for (int k = 0; k < 100; ++k) measure_flow(end, duct.fluid, 0, 0.1);
-    EXPECT_NEAR(end.flow, side * side, 1e-5);   // 0.9^100 of the 5 % are left
+    EXPECT_NEAR(end.flow, side * side, 1e-5);       // 0.9^100 of the 5 % are left
     for (auto& v : duct.fluid.velocity) v.x += 1;   // a knock is seen at once
     measure_flow(end, duct.fluid, 0, 0);
     EXPECT_NEAR(end.flow, 2 * side * side, 1e-5);
@@ -169,7 +174,8 @@ TEST(OpenEnd, AnOutletModelAndTheBloodAgree) {
         fit_pressure(end, impedance, pressure);
         // The flow that the value makes is the flow that the value was wanted for.
         const double flow = end.flow + end.area / impedance * (inside - end.mean_pressure);
-        EXPECT_NEAR(end.mean_pressure, end.pressure + resistance * flow, 1e-9 * (1 + resistance * end.flow)) << resistance;
+        EXPECT_NEAR(end.mean_pressure, end.pressure + resistance * flow, 1e-9 * (1 + resistance * end.flow))
+            << resistance;
     }
     // Already in agreement: nothing changes.
     end.resistance = (inside - end.pressure) / end.flow;
@@ -181,7 +187,10 @@ TEST(OpenEnd, OutAndBackInIsCountedTwiceWithOppositeSigns) {
     Duct duct;
     const std::size_t i = duct.nearest({length - 0.05, 0.05, 0.05});
     duct.fluid.viscosity[i] = 77;   // a mark, to find it again
-    const auto find = [&] { return std::size_t(std::find(duct.fluid.viscosity.begin(), duct.fluid.viscosity.end(), 77.0) - duct.fluid.viscosity.begin()); };
+    const auto find = [&] {
+        return std::size_t(std::find(duct.fluid.viscosity.begin(), duct.fluid.viscosity.end(), 77.0) -
+                           duct.fluid.viscosity.begin());
+    };
     const std::int64_t inside = duct.count(0);
     const double volume = duct.fluid.volume[i];
 
@@ -225,7 +234,9 @@ TEST(OpenEnd, WhatEntersLeavesACopyAtTheFarEnd) {
 TEST(OpenEnd, BloodEntersAPressureEndAsItIsInside) {
     Duct duct;
     // A quadratic profile that does not change along the axis, as far as the buffer; there it is garbage.
-    const auto profile = [](const Vec3& x) { return Vec3{1 - x.y * x.y - 2 * x.z * x.z + 0.5 * x.y * x.z, 0.2 * x.y, 0.1 * x.z * x.z}; };
+    const auto profile = [](const Vec3& x) {
+        return Vec3{1 - x.y * x.y - 2 * x.z * x.z + 0.5 * x.y * x.z, 0.2 * x.y, 0.1 * x.z * x.z};
+    };
     const auto gradient = [](const Vec3& x) {
         return Mat3{{0, -2 * x.y + 0.5 * x.z, -4 * x.z + 0.5 * x.y}, {0, 0.2, 0}, {0, 0, 0.2 * x.z}};
     };
@@ -255,9 +266,11 @@ TEST(OpenEnd, BuffersRepeatThemselves) {
             if (duct.fluid.opening[i] == -number) copies.push_back(i);
         }
         ASSERT_EQ(copies.size(), parents.size());
-        EXPECT_EQ(copies.size(), 300u);   // three layers stand before 2.6 spacings
+        EXPECT_EQ(copies.size(), 300u);                   // three layers stand before 2.6 spacings
         for (std::size_t c = 0; c < copies.size(); ++c)   // in the order of their parents
-            EXPECT_NEAR(norm(duct.fluid.position[copies[c]] - duct.fluid.position[parents[c]] - buffer_length * end.normal), 0, 1e-15);
+            EXPECT_NEAR(
+                norm(duct.fluid.position[copies[c]] - duct.fluid.position[parents[c]] - buffer_length * end.normal), 0,
+                1e-15);
     }
     const std::size_t size = duct.fluid.size();
     duct.find();
@@ -271,7 +284,8 @@ TEST(OpenEnd, NewParticlesAreOrderedByEndAndParent) {
     for (std::size_t i = 0; i < duct.fluid.size(); ++i) duct.fluid.viscosity[i] = double(i);   // who it was
     duct.find();
     for (std::size_t i = 0; i < duct.fluid.size(); ++i)   // both buffers' first layers come in
-        if (duct.fluid.opening[i]) duct.fluid.position[i] -= 0.06 * duct.ends[std::size_t(duct.fluid.opening[i]) - 1].normal;
+        if (duct.fluid.opening[i])
+            duct.fluid.position[i] -= 0.06 * duct.ends[std::size_t(duct.fluid.opening[i]) - 1].normal;
     const std::size_t before = duct.fluid.size();
     duct.exchange();
     std::vector<double> parents[2];
@@ -320,25 +334,29 @@ TEST(OpenEnd, NoneIsLostAndNoneIsStuck) {
         const std::int64_t now_crossed = duct.ends[0].crossed + duct.ends[1].crossed;
         // Inside: what was there less what has crossed. In the buffers: one leaves inwards, its copy comes.
         ASSERT_EQ(duct.count(0) + now_crossed, inside) << "step " << step;
-        ASSERT_EQ(duct.count(1) + duct.count(2), in_buffers + (now_crossed - crossed) + incoming - removed) << "step " << step;
+        ASSERT_EQ(duct.count(1) + duct.count(2), in_buffers + (now_crossed - crossed) + incoming - removed)
+            << "step " << step;
         for (std::size_t i = 0; i < duct.fluid.size(); ++i) {
             const std::int32_t opening = duct.fluid.opening[i];
             const double x = duct.fluid.position[i].x;
             if (opening == 0) {
-                ASSERT_TRUE(x > -0.5 * spacing && x < length + 0.5 * spacing) << "stuck at " << x << " in step " << step;
+                ASSERT_TRUE(x > -0.5 * spacing && x < length + 0.5 * spacing)
+                    << "stuck at " << x << " in step " << step;
             }
             if (opening > 0) {
                 const double s = duct.ends[std::size_t(opening) - 1].axial(duct.fluid.position[i]);
-                ASSERT_TRUE(s >= 0 && s <= buffer_length) << "at " << s << " of buffer " << opening << " in step " << step;
+                ASSERT_TRUE(s >= 0 && s <= buffer_length)
+                    << "at " << s << " of buffer " << opening << " in step " << step;
             }
         }
         entered += incoming, left += now_crossed - crossed + incoming;
         volume = 0;
-        for (std::size_t i = 0; i < duct.fluid.size(); ++i) volume += duct.fluid.opening[i] == 0 ? duct.fluid.volume[i] : 0.0;
+        for (std::size_t i = 0; i < duct.fluid.size(); ++i)
+            volume += duct.fluid.opening[i] == 0 ? duct.fluid.volume[i] : 0.0;
     }
     EXPECT_NEAR(volume + duct.ends[0].crossed_volume + duct.ends[1].crossed_volume, start_volume, 1e-9);
     EXPECT_GT(entered, 1000);   // the walk has tried it
     EXPECT_GT(left, 1000);
 }
 
-}  // namespace
+}   // namespace

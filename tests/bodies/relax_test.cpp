@@ -121,9 +121,11 @@ TEST_F(Relax, fitsPointsEvenlyOnTheirSidesOfTheWall) {
         }
         first_layer /= in_layer;
         for (const Vec3& x : points.wall) ASSERT_GE(lumen.distance.value(x) / dp, branches ? 0.4 : 0.5 - 1e-6) << name;
-        std::printf("    %-14s %6zu fluid %6zu wall: density %.4f +- %.2f %% (largest %.2f %%), first layer at %.3f "
-                    "spacings, %.2f s\n", name, points.fluid.size(), points.wall.size(), q.mean_density,
-                    100 * q.density_spread, 100 * q.largest_density_error, first_layer, seconds);
+        std::printf(
+            "    %-14s %6zu fluid %6zu wall: density %.4f +- %.2f %% (largest %.2f %%), first layer at %.3f "
+            "spacings, %.2f s\n",
+            name, points.fluid.size(), points.wall.size(), q.mean_density, 100 * q.density_spread,
+            100 * q.largest_density_error, first_layer, seconds);
         EXPECT_NEAR(q.mean_density, 1, 0.01) << name;
         EXPECT_LT(q.density_spread, 0.01) << name;
         EXPECT_LT(q.largest_density_error, 0.03) << name;
@@ -198,8 +200,11 @@ TEST_F(Relax, refusesSettingsThatDoNotFitTheLumen) {
     settings.fluid_end = settings.wall_end = {0, 0};
     settings.spacing = 0;
     EXPECT_THROW(relax_points(points, none, tube, settings), GeometryError);
-    EXPECT_EQ(relax_points(none, none, make_tube({.length = 1, .radius = 0.5, .ends = Side::periodic}), still_settings(1)).mean_density, 0);
+    EXPECT_EQ(
+        relax_points(none, none, make_tube({.length = 1, .radius = 0.5, .ends = Side::periodic}), still_settings(1))
+            .mean_density,
+        0);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

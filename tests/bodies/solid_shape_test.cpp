@@ -38,7 +38,8 @@ TEST(SolidShape, isCutToABoxWithoutAFaceThere) {
 }
 
 TEST(SolidShape, thatABoxHoldsIsNotCut) {
-    const SolidFill whole = fill_cylinder({0, 0, 0}, {0, 0, 1}, 0.5, 1, 0.1, false), cut = cut_to_box(whole, {-2, -2, -2}, {2, 2, 2});
+    const SolidFill whole = fill_cylinder({0, 0, 0}, {0, 0, 1}, 0.5, 1, 0.1, false),
+                    cut = cut_to_box(whole, {-2, -2, -2}, {2, 2, 2});
     EXPECT_EQ(cut.places.size(), whole.places.size());
     EXPECT_EQ(cut.surface.elements.size(), whole.surface.elements.size());
     EXPECT_EQ(cut.surface.vertices.size(), whole.surface.vertices.size());

@@ -28,14 +28,15 @@ struct Shape {
 };
 
 std::vector<Shape> shapes() {
-    return {{"box", fill_box({0, 0, 0}, {5e-3, 4e-3, 3e-3}, spacing, false), false, 60e-9, 94e-6, 1e-12},
-            {"rectangle", fill_box({0, 0, 0}, {5e-3, 4e-3, 3e-3}, spacing, true), true, 20e-6, 18e-3, 1e-12},
-            {"cylinder", fill_cylinder({1e-3, 0, 0}, {1e-3, 2e-3, 6e-3}, 0, 4e-3, spacing, false), false,
-             pi * 16e-6 * std::sqrt(40e-6), 2 * pi * 16e-6 + 2 * pi * 4e-3 * std::sqrt(40e-6), 0.015},
-            {"tube", fill_cylinder({0, 0, 0}, {0, 0, 6e-3}, 3e-3, 6e-3, spacing, false), false, pi * 27e-6 * 6e-3,
-             2 * pi * 27e-6 + 2 * pi * 9e-3 * 6e-3, 0.015},
-            {"ring", fill_cylinder({0, 0, 7}, {0, 0, 7}, 3e-3, 6e-3, spacing, true), true, pi * 27e-6, 2 * pi * 9e-3, 0.01},
-            {"sphere", fill_sphere({1e-3, 2e-3, 3e-3}, 5e-3, spacing), false, 4 * pi / 3 * 125e-9, 4 * pi * 25e-6, 0.02}};
+    return {
+        {"box", fill_box({0, 0, 0}, {5e-3, 4e-3, 3e-3}, spacing, false), false, 60e-9, 94e-6, 1e-12},
+        {"rectangle", fill_box({0, 0, 0}, {5e-3, 4e-3, 3e-3}, spacing, true), true, 20e-6, 18e-3, 1e-12},
+        {"cylinder", fill_cylinder({1e-3, 0, 0}, {1e-3, 2e-3, 6e-3}, 0, 4e-3, spacing, false), false,
+         pi * 16e-6 * std::sqrt(40e-6), 2 * pi * 16e-6 + 2 * pi * 4e-3 * std::sqrt(40e-6), 0.015},
+        {"tube", fill_cylinder({0, 0, 0}, {0, 0, 6e-3}, 3e-3, 6e-3, spacing, false), false, pi * 27e-6 * 6e-3,
+         2 * pi * 27e-6 + 2 * pi * 9e-3 * 6e-3, 0.015},
+        {"ring", fill_cylinder({0, 0, 7}, {0, 0, 7}, 3e-3, 6e-3, spacing, true), true, pi * 27e-6, 2 * pi * 9e-3, 0.01},
+        {"sphere", fill_sphere({1e-3, 2e-3, 3e-3}, 5e-3, spacing), false, 4 * pi / 3 * 125e-9, 4 * pi * 25e-6, 0.02}};
 }
 
 void make_solid(const Shape& shape, Solid& solid) {
@@ -65,8 +66,11 @@ TEST(SolidShape, ParticlesFillTheVolumeAndTheSurfaceClosesAroundIt) {
         for (std::size_t e = 0; e < s.fill.surface.elements.size(); ++e) {
             const Vec3 A = area_of(s.fill.surface, e, s.planar);
             const auto& t = s.fill.surface.elements[e];
-            const Vec3 middle = s.planar ? 0.5 * (s.fill.surface.vertices[t[0]] + s.fill.surface.vertices[t[1]])
-                                         : (s.fill.surface.vertices[t[0]] + s.fill.surface.vertices[t[1]] + s.fill.surface.vertices[t[2]]) / 3.0;
+            const Vec3 middle =
+                s.planar
+                    ? 0.5 * (s.fill.surface.vertices[t[0]] + s.fill.surface.vertices[t[1]])
+                    : (s.fill.surface.vertices[t[0]] + s.fill.surface.vertices[t[1]] + s.fill.surface.vertices[t[2]]) /
+                          3.0;
             open += A, area += norm(A);
             enclosed += dot(A, middle) / (s.planar ? 2 : 3);
         }
@@ -108,8 +112,10 @@ TEST(SolidSurface, APushArrivesWithItsForceAndItsTorque) {
         Vec3 force{}, torque{}, arrived{}, turned{};
         double size = 0;
         for (std::size_t v = 0; v < surface.size(); ++v) {
-            surface.force[v] = {std::sin(double(v)), std::cos(3.0 * double(v)), s.planar ? 0 : std::sin(2.0 * double(v))};
-            force += surface.force[v], torque += cross(surface.position[v], surface.force[v]), size += norm(surface.force[v]);
+            surface.force[v] = {std::sin(double(v)), std::cos(3.0 * double(v)),
+                                s.planar ? 0 : std::sin(2.0 * double(v))};
+            force += surface.force[v], torque += cross(surface.position[v], surface.force[v]),
+                size += norm(surface.force[v]);
         }
         surface.push(solid.particles);
         for (std::size_t i = 0; i < solid.particles.size(); ++i)
@@ -127,7 +133,8 @@ TEST(SolidSurface, PressureActsOnTheDeformedArea) {
         make_solid(s, solid);
         SolidSurface surface(s.fill.surface, solid.particles, 2.3 * spacing, s.planar);
         const Mat3& A = s.planar ? plane_F : F;
-        for (std::size_t i = 0; i < solid.particles.size(); ++i) solid.particles.position[i] = A * solid.particles.reference[i];
+        for (std::size_t i = 0; i < solid.particles.size(); ++i)
+            solid.particles.position[i] = A * solid.particles.reference[i];
         for (std::uint16_t face = 0; face < s.fill.surface.faces.size(); ++face) {
             surface.follow(solid.particles);
             surface.add_pressure(face, p);

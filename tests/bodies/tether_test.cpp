@@ -11,7 +11,9 @@ namespace {
 
 TEST(Tether, HoldsItsFaceByItsArea) {
     const SolidFill fill = fill_box({0, 0, 0}, {2e-3, 1e-3, 1e-3}, 0.25e-3, false);
-    Solid solid{.particles = {}, .materials = {{1000, NeoHookean::from(elastic_moduli({1e6, 0.3, {}, {}}))}}, .constraints = {}};
+    Solid solid{.particles = {},
+                .materials = {{1000, NeoHookean::from(elastic_moduli({1e6, 0.3, {}, {}}))}},
+                .constraints = {}};
     place_particles(solid, fill.places, fill.volumes[0]);
     SolidSurface surface(fill.surface, solid.particles, 0.6e-3, false);
     std::uint16_t face = 0;
@@ -28,7 +30,9 @@ TEST(Tether, HoldsItsFaceByItsArea) {
     EXPECT_LT(norm(tether->report().force + k * u), 1e-9 * norm(k * u));
     EXPECT_NEAR(tether->report().energy, 0.5 * k * dot(u, u), 1e-9 * k * dot(u, u));
     for (std::size_t v = 0; v < surface.size(); ++v)
-        if (surface.mesh().vertices[v].z < 0.5e-3) { EXPECT_EQ(norm(surface.force[v]), 0); }
+        if (surface.mesh().vertices[v].z < 0.5e-3) {
+            EXPECT_EQ(norm(surface.force[v]), 0);
+        }
 }
 
 }   // namespace

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <random>
 
-#include <algorithm>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "patency/base/errors.h"
 #include "tests/config/decks.h"
@@ -47,7 +47,8 @@ TEST(Deck, AStentHasItsMeasuresAndItsPlace) {
     EXPECT_EQ(named.placement->branch, "left");
     EXPECT_DOUBLE_EQ(*named.placement->arc_length, 14.2e-3);
     EXPECT_NEAR(named.placement->rotation, 3.14159265358979 / 6, 1e-14);
-    const auto deck_of_own = std::find_if(std::begin(valid_decks), std::end(valid_decks), [](const std::string& d) { return d.find("pattern:") != d.npos; });
+    const auto deck_of_own = std::find_if(std::begin(valid_decks), std::end(valid_decks),
+                                          [](const std::string& d) { return d.find("pattern:") != d.npos; });
     ASSERT_NE(deck_of_own, std::end(valid_decks));
     const Stent own = *parse_case(*deck_of_own).stent;
     EXPECT_EQ(own.pattern->crowns, 6);
@@ -113,10 +114,11 @@ TEST(Deck, PathsAreRelativeToTheDeck) {
 }
 
 TEST(Deck, SettingsGoOverTheFile) {
-    const Case c = parse_case(pipe_deck, "deck", "", {"numerics.spacing=0.1 mm", "numerics.threads=3",
-                                                      "openings.outlet={type: rcr, proximal_resistance: 1 Wood, "
-                                                      "distal_resistance: 9 Wood, compliance: 1 mL/mmHg}",
-                                                      "output.fields=[density]"});
+    const Case c = parse_case(pipe_deck, "deck", "",
+                              {"numerics.spacing=0.1 mm", "numerics.threads=3",
+                               "openings.outlet={type: rcr, proximal_resistance: 1 Wood, "
+                               "distal_resistance: 9 Wood, compliance: 1 mL/mmHg}",
+                               "output.fields=[density]"});
     EXPECT_DOUBLE_EQ(c.numerics.spacing, 1e-4);
     EXPECT_EQ(c.numerics.threads, 3);
     EXPECT_EQ(c.openings.at("outlet").type, OpeningType::rcr);
@@ -148,15 +150,19 @@ TEST(Deck, FlowInAStillVesselIsSolvedOnCellsUnlessItSaysOtherwise) {
 }
 
 TEST(Deck, TheMusclesPressureIsAPressureAndComesBackFromText) {
-    const Case c = parse_case(pipe_deck, "deck", "", {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
-                                                      "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
-                                                      "myocardial_pressure: {times: [0 s, 0.3 s], values: [0 mmHg, 100 mmHg], period: 0.8 s}}"});
+    const Case c =
+        parse_case(pipe_deck, "deck", "",
+                   {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
+                    "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
+                    "myocardial_pressure: {times: [0 s, 0.3 s], values: [0 mmHg, 100 mmHg], period: 0.8 s}}"});
     EXPECT_NEAR(c.openings.at("outlet").myocardial_pressure->values[1], 13332.2387415, 1e-6);
     EXPECT_EQ(parse_case(format_case(c)), c);
-    EXPECT_THROW(parse_case(pipe_deck, "deck", "", {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
-                                                    "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
-                                                    "myocardial_pressure: {times: [0 s, 0.3 s], values: [0 mL/s, 100 mL/s]}}"}),
-                 DeckError);
+    EXPECT_THROW(
+        parse_case(pipe_deck, "deck", "",
+                   {"openings.outlet={type: coronary, proximal_resistance: 1 Wood, microvascular_resistance: 3 Wood, "
+                    "distal_resistance: 1 Wood, compliance: 1e-3 mL/mmHg, myocardial_compliance: 1e-2 mL/mmHg, "
+                    "myocardial_pressure: {times: [0 s, 0.3 s], values: [0 mL/s, 100 mL/s]}}"}),
+        DeckError);
 }
 
 TEST(Deck, SettingsReachItemsOfLists) {
@@ -200,16 +206,18 @@ TEST(Runs, SettingsGoOverRuns) {
 }
 
 TEST(Runs, MayCompleteTheDeck) {
-    const std::string deck = pipe_with("  spacing: \"0.2 mm\"\n", "") + "runs: [{name: a, set: {numerics.spacing: \"0.3 mm\"}}]\n";
+    const std::string deck =
+        pipe_with("  spacing: \"0.2 mm\"\n", "") + "runs: [{name: a, set: {numerics.spacing: \"0.3 mm\"}}]\n";
     EXPECT_THROW(parse_case(deck), DeckError);
     EXPECT_DOUBLE_EQ(parse_runs(deck)[0].resolved.numerics.spacing, 3e-4);
 }
 
 TEST(Deck, AliasesAreFollowed) {
-    const Case c = parse_case(pipe_with("pressure: \"0 mmHg\"", "pressure: \"0 mmHg\"\n  second: &o\n    type: resistance\n"
+    const Case c = parse_case(pipe_with("pressure: \"0 mmHg\"",
+                                        "pressure: \"0 mmHg\"\n  second: &o\n    type: resistance\n"
                                         "    resistance: \"1 Wood\"\n  third: *o"));
     EXPECT_TRUE(c.openings.at("third") == c.openings.at("second"));
 }
 
-}  // namespace
-}  // namespace patency::deck
+}   // namespace
+}   // namespace patency::deck

@@ -176,8 +176,7 @@ stent:
     connector_swing: "50 um", edge_radius: "4 um"}
   placement: {translation: ["1 mm", "2 mm", "3 mm"], direction: [0, 1, 1], rotation: "0.5 rad"}
 numerics: {spacing: "0.2 mm", duration: "1 s"}
-)",
-    solid_deck,
+)",     solid_deck,
     R"(version: 1
 geometry:
   network: tree.json
@@ -187,4 +186,4 @@ numerics: {spacing: "0.2 mm", duration: "1 s"}
 )",
 };
 
-}  // namespace patency::deck
+}   // namespace patency::deck

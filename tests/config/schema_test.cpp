@@ -32,8 +32,10 @@ Json as_json(const Node& node) {
     }
     Json value = node.kind == Node::Kind::map ? Json::object() : Json::array();
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-        if (node.kind == Node::Kind::map) value[node.keys[i].text] = as_json(node.items[i]);
-        else value.push_back(as_json(node.items[i]));
+        if (node.kind == Node::Kind::map)
+            value[node.keys[i].text] = as_json(node.items[i]);
+        else
+            value.push_back(as_json(node.items[i]));
     }
     return value;
 }
@@ -103,7 +105,8 @@ TEST(Schema, RefusesWhatTheReaderRefuses) {
 void expect_sound(const Json& schema, const std::string& path) {
     if (schema.contains("properties")) {
         for (const auto& [key, property] : schema["properties"].items()) {
-            EXPECT_TRUE(property.contains("description") && !property["description"].get<std::string>().empty()) << path << key;
+            EXPECT_TRUE(property.contains("description") && !property["description"].get<std::string>().empty())
+                << path << key;
             if (property.contains("default") && property.contains("enum")) {
                 const auto& words = property["enum"];
                 EXPECT_NE(std::find(words.begin(), words.end(), property["default"]), words.end()) << path << key;
@@ -127,11 +130,13 @@ void check_examples(const Table& table, const std::string& path, std::size_t& ch
             const Row* key = table.find(condition->key);
             ASSERT_TRUE(key) << path << row.key << " depends on " << condition->key;
             for (const std::string& word : condition->words)
-                EXPECT_NE(std::find(key->form.words.begin(), key->form.words.end(), word), key->form.words.end()) << path << word;
+                EXPECT_NE(std::find(key->form.words.begin(), key->form.words.end(), word), key->form.words.end())
+                    << path << word;
         }
         const bool is_number = row.form.kind == Form::Kind::number || row.form.kind == Form::Kind::vector;
         if (is_number && !row.unit.empty() && row.unit != signal_unit) {
-            const std::string example = row.example.empty() ? std::string(dimension_example(find_unit(row.unit)->dimension)) : row.example;
+            const std::string example =
+                row.example.empty() ? std::string(dimension_example(find_unit(row.unit)->dimension)) : row.example;
             const double value = parse_quantity(example, find_unit(row.unit)->dimension);
             EXPECT_TRUE(row.range.contains(value)) << path << row.key << " " << example;
             ++checked;
@@ -161,5 +166,5 @@ TEST(Schema, MarkdownHasARowForEveryKey) {
     EXPECT_NE(text.find("default `1.3`"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace patency::deck
+}   // namespace
+}   // namespace patency::deck

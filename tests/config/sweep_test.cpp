@@ -20,13 +20,15 @@ TEST(SweepAxis, HasTheValuesBetweenItsCommas) {
 }
 
 TEST(SweepAxis, KeepsCommasThatBelongToAValue) {
-    EXPECT_EQ(parse_axis("stent.placement={branch: a, arc_length: 2 mm},null").values, (Texts{"{branch: a, arc_length: 2 mm}", "null"}));
+    EXPECT_EQ(parse_axis("stent.placement={branch: a, arc_length: 2 mm},null").values,
+              (Texts{"{branch: a, arc_length: 2 mm}", "null"}));
     EXPECT_EQ(parse_axis("body_force=[0, [1, 2]],[3]").values, (Texts{"[0, [1, 2]]", "[3]"}));
     EXPECT_EQ(parse_axis("case.name=\"a,b\",'c,\"d'").values, (Texts{"\"a,b\"", "'c,\"d'"}));
 }
 
 TEST(SweepAxis, RefusesWhatIsNone) {
-    for (const char* wrong : {"viscosity", "=3", "a=", "a=1,,2", "a=1,1"}) EXPECT_THROW(parse_axis(wrong), UsageError) << wrong;
+    for (const char* wrong : {"viscosity", "=3", "a=", "a=1,,2", "a=1,1"})
+        EXPECT_THROW(parse_axis(wrong), UsageError) << wrong;
 }
 
 TEST(SweepPoints, AreAllCombinationsWithTheLastAxisFastest) {
@@ -50,7 +52,8 @@ TEST(SweepPoints, HaveNamesThatAreDifferentAndFitForFolders) {
 }
 
 TEST(SweepPoints, KeepTheirNamesWhenValuesAreAdded) {
-    const auto small = combine({{"a", {"2", "3"}}, {"b", {"4", "5"}}}), large = combine({{"a", {"1", "2", "3"}}, {"b", {"5", "4"}}});
+    const auto small = combine({{"a", {"2", "3"}}, {"b", {"4", "5"}}}),
+               large = combine({{"a", {"1", "2", "3"}}, {"b", {"5", "4"}}});
     std::set<std::string> names;
     for (const SweepPoint& point : large) names.insert(point.name);
     for (const SweepPoint& point : small) EXPECT_TRUE(names.count(point.name)) << point.name;

@@ -17,7 +17,8 @@ TEST(Fuzz, seedsAreAccepted) {
     for (const auto& entry : fs::directory_iterator(fs::path(PATENCY_SOURCE_DIR) / "tests/fuzz/corpus")) {
         const std::string name = entry.path().filename().string();
         std::string sentence;
-        EXPECT_EQ(end_of(folder / name, contents_of(entry.path()), sentence), Ending::accepted) << name << ": " << sentence;
+        EXPECT_EQ(end_of(folder / name, contents_of(entry.path()), sentence), Ending::accepted)
+            << name << ": " << sentence;
         size += entry.file_size();
     }
     EXPECT_LT(size, 100'000u);   // bytes: small files find as much, and sooner
@@ -37,7 +38,8 @@ TEST(Fuzz, damageIsTheSameForTheSameNumber) {
 TEST(Fuzz, refusalsAreToldApart) {
     const ScratchFolder folder;
     std::string sentence;
-    EXPECT_EQ(end_of(folder / "missing" / "x.stl", "solid", sentence), Ending::file);   // it cannot be written, so not read
+    EXPECT_EQ(end_of(folder / "missing" / "x.stl", "solid", sentence),
+              Ending::file);   // it cannot be written, so not read
     EXPECT_EQ(end_of(folder / "x.yaml", "version: 2\n", sentence), Ending::deck);
     EXPECT_EQ(end_of(folder / "x.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", sentence), Ending::geometry);
 }

@@ -21,8 +21,10 @@ public:
     std::string operator()(std::string bytes, std::string_view other) {
         const bool keeps_form = below(2) == 0;
         for (std::size_t blows = 1 + below(below(2) ? 8 : 2); blows > 0; --blows)
-            if (keeps_form) touch(bytes);
-            else strike(bytes, other);
+            if (keeps_form)
+                touch(bytes);
+            else
+                strike(bytes, other);
         return bytes;
     }
 
@@ -93,8 +95,10 @@ private:
         for (std::size_t count = below(2) ? 7 : 1 + below(20); count > 0 && end != bytes.npos; --count)
             end = bytes.find('\n', end + 1);
         if (end == bytes.npos) return;
-        if (below(2)) bytes.erase(begin, end - begin);
-        else bytes.insert(end, bytes.substr(begin, end - begin));
+        if (below(2))
+            bytes.erase(begin, end - begin);
+        else
+            bytes.insert(end, bytes.substr(begin, end - begin));
     }
 
     /// The digits at or after a place become a number that programs stumble over.
@@ -145,16 +149,19 @@ private:
     /// A piece of the other file stands in for one here; now and then all that follows.
     void splice(std::string& bytes, std::size_t at, std::string_view other) {
         const std::string_view piece = other.substr(below(other.size()));
-        if (below(8) == 0) bytes.replace(at, bytes.npos, piece);
-        else bytes.replace(at, below(64), piece.substr(0, 1 + below(200)));
+        if (below(8) == 0)
+            bytes.replace(at, bytes.npos, piece);
+        else
+            bytes.replace(at, below(64), piece.substr(0, 1 + below(200)));
     }
 
     /// Marks that mean something in one of the formats.
     void insert_mark(std::string& bytes, std::size_t at) {
-        constexpr std::string_view marks[] = {"{",   "}",  "[",    "]",        "\"",     "*a ",          "&a ",         "? ",
-                                              ": ",  "- ", "\n",   "\t",       "---\n",  "<<: ",         "!!binary ",   "#",
-                                              "|\n", "\r", "~",    "endsolid", "solid ", "</DataArray>", "<!--",        "&#0;",
-                                              "_",   "-",  "\xff", "null",     "%TAG ",  "vertex ",      "endfacet\n", "\xef\xbb\xbf"};
+        constexpr std::string_view marks[] = {
+            "{",   "}",  "[",    "]",        "\"",     "*a ",          "&a ",        "? ",
+            ": ",  "- ", "\n",   "\t",       "---\n",  "<<: ",         "!!binary ",  "#",
+            "|\n", "\r", "~",    "endsolid", "solid ", "</DataArray>", "<!--",       "&#0;",
+            "_",   "-",  "\xff", "null",     "%TAG ",  "vertex ",      "endfacet\n", "\xef\xbb\xbf"};
         bytes.insert(at, marks[below(std::size(marks))]);
     }
 

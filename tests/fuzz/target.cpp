@@ -35,7 +35,8 @@ void use_deck(const std::string& text, const fs::path& folder) {
         try {
             again = deck::format_case(deck::parse_case(written, "written", folder), folder);
         } catch (const Error& error) {
-            throw BrokenLaw(fmt::format("an accepted deck is refused when it is written and read again: {}", error.what()));
+            throw BrokenLaw(
+                fmt::format("an accepted deck is refused when it is written and read again: {}", error.what()));
         }
         expect(again == written, "an accepted deck changes when it is written and read again");
     }
@@ -44,8 +45,8 @@ void use_deck(const std::string& text, const fs::path& folder) {
 /// Whether a place is there or beside it, where the middle of a bent line may be.
 bool is_near(const Bounds& box, const Vec3& x) {
     const double slack = 0.5 * diagonal(box);
-    return x.x >= box.low.x - slack && x.x <= box.high.x + slack && x.y >= box.low.y - slack && x.y <= box.high.y + slack &&
-           x.z >= box.low.z - slack && x.z <= box.high.z + slack;
+    return x.x >= box.low.x - slack && x.x <= box.high.x + slack && x.y >= box.low.y - slack &&
+           x.y <= box.high.y + slack && x.z >= box.low.z - slack && x.z <= box.high.z + slack;
 }
 
 /// What is said of a surface lies where the surface is.
@@ -54,8 +55,11 @@ void expect_sound(const Vessel& vessel, const Bounds& box) {
     for (const Finding& finding : vessel.checked.findings) {
         expect(!finding.sentence.empty(), "a finding without a sentence");
         if (finding.kind == "missing_openings") continue;   // what is missing has no place
-        expect(is_near(box, finding.place), fmt::format("a finding beside the surface: {} at ({:g}, {:g}, {:g}) m", finding.kind, finding.place.x, finding.place.y, finding.place.z));
-        expect(finding.size <= 4 * diagonal(box), "a finding larger than the surface");   // of a bent line, by its farthest point
+        expect(is_near(box, finding.place),
+               fmt::format("a finding beside the surface: {} at ({:g}, {:g}, {:g}) m", finding.kind, finding.place.x,
+                           finding.place.y, finding.place.z));
+        expect(finding.size <= 4 * diagonal(box),
+               "a finding larger than the surface");   // of a bent line, by its farthest point
     }
     for (const SurfaceOpening& o : vessel.openings) {
         expect(o.opening.area > 0 && std::isfinite(o.opening.area), "an opening without area");
@@ -129,7 +133,8 @@ Ending end_of(const fs::path& path, const std::string& contents, std::string& se
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
     namespace fs = std::filesystem;
     const char* kind = std::getenv("PATENCY_FUZZ_KIND");
-    static const fs::path path = fs::temp_directory_path() / fmt::format("patency_fuzz_{}.{}", ::getpid(), kind ? kind : "stl");
+    static const fs::path path =
+        fs::temp_directory_path() / fmt::format("patency_fuzz_{}.{}", ::getpid(), kind ? kind : "stl");
     std::string sentence;
     if (patency::end_of(path, {reinterpret_cast<const char*>(bytes), size}, sentence) == patency::Ending::found) {
         fmt::print(stderr, "{}\n", sentence);

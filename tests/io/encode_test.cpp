@@ -12,7 +12,9 @@ namespace {
 std::string inflated(const std::string& packed, std::size_t size) {
     std::string result(size, '\0');
     uLongf length = size;
-    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(result.data()), &length, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(result.data()), &length,
+                         reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
+              Z_OK);
     EXPECT_EQ(length, size);
     return result;
 }
@@ -50,7 +52,8 @@ TEST(Encode, PngHoldsThePixels) {
     std::string pixels;
     for (std::size_t at = 8; at < file.size(); at += 12 + number_at(file, at)) {
         const std::string named = file.substr(at + 4, 4 + number_at(file, at));
-        EXPECT_EQ(number_at(file, at + 8 + number_at(file, at)), crc32(0, reinterpret_cast<const Bytef*>(named.data()), uInt(named.size())));
+        EXPECT_EQ(number_at(file, at + 8 + number_at(file, at)),
+                  crc32(0, reinterpret_cast<const Bytef*>(named.data()), uInt(named.size())));
         if (named.starts_with("IHDR")) {
             EXPECT_EQ(number_at(named, 4), 3u);
             EXPECT_EQ(number_at(named, 8), 2u);

@@ -10,7 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json opening(double flow, double pressure) { return {{"flow_m3_per_s", flow}, {"mean_pressure_pa", pressure}, {"mean_velocity_m_per_s", 0.315}}; }
+Json opening(double flow, double pressure) {
+    return {{"flow_m3_per_s", flow}, {"mean_pressure_pa", pressure}, {"mean_velocity_m_per_s", 0.315}};
+}
 
 TEST(FlowTable, SpeaksInClinicalUnits) {
     Json summary{{"openings", {{"inlet", opening(-1e-6, 13332.2387415)}}}, {"mass_imbalance_percent", 0.0123}};
@@ -23,9 +25,10 @@ TEST(FlowTable, SpeaksInClinicalUnits) {
 }
 
 TEST(FlowTable, MarksWhatIsUnderResolvedAndLeavesOutWhatIsNotThere) {
-    const Json lesion{{"branch", "lad"}, {"throat_arc_mm", 24.0}, {"diameter_stenosis_percent", 39.4}, {"flow_m3_per_s", 1e-6},
-                      {"drop_pa", 133.322387415}, {"estimated_drop_pa", 266.64477483}, {"ffr", nullptr}, {"gauge_pressure_ratio", 0.456},
-                      {"particles_across", 5.0}, {"is_under_resolved", true}};
+    const Json lesion{{"branch", "lad"},          {"throat_arc_mm", 24.0},         {"diameter_stenosis_percent", 39.4},
+                      {"flow_m3_per_s", 1e-6},    {"drop_pa", 133.322387415},      {"estimated_drop_pa", 266.64477483},
+                      {"ffr", nullptr},           {"gauge_pressure_ratio", 0.456}, {"particles_across", 5.0},
+                      {"is_under_resolved", true}};
     const std::string text = flow_table({{"lesions", {lesion}}, {"branches", {{{"name", "side"}}}}});
     EXPECT_NE(text.find("lad"), std::string::npos) << text;
     EXPECT_NE(text.find("drop 1.000 mmHg (estimate 2.000)"), std::string::npos) << text;

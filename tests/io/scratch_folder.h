@@ -19,7 +19,8 @@ namespace patency {
 class ScratchFolder {
 public:
     explicit ScratchFolder(const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
-        std::string name = (parent / "patency_test_").string() + std::string(6, 'X');   // which the system makes a name of
+        std::string name =
+            (parent / "patency_test_").string() + std::string(6, 'X');   // which the system makes a name of
         if (!::mkdtemp(name.data())) throw std::runtime_error("no scratch folder");
         path_ = name;
     }

@@ -191,8 +191,10 @@ TEST_F(SurfaceFile, WhatIsNoFileIsRefused) {
     EXPECT_TRUE(has(sentence_of<FileError>([&] { read_surface(folder_.path(), "mm"); }), "directory"));
     for (const char* name : {"e.stl", "e.vtp", "e.ply", "e.obj", "e.vtk", "e"})
         EXPECT_TRUE(has(refused<FileError>(name, ""), "empty"));
-    EXPECT_TRUE(has(refused<FileError>("a.docx", "my thesis"), "STL, VTP, PLY, OBJ, legacy VTK, NIfTI, NRRD or MetaImage"));
-    EXPECT_TRUE(has(refused<FileError>("a.vtp", "my thesis"), "STL, VTP, PLY, OBJ, legacy VTK, NIfTI, NRRD or MetaImage"));
+    EXPECT_TRUE(
+        has(refused<FileError>("a.docx", "my thesis"), "STL, VTP, PLY, OBJ, legacy VTK, NIfTI, NRRD or MetaImage"));
+    EXPECT_TRUE(
+        has(refused<FileError>("a.vtp", "my thesis"), "STL, VTP, PLY, OBJ, legacy VTK, NIfTI, NRRD or MetaImage"));
     EXPECT_TRUE(
         has(refused<FileError>("a.vtp", replaced(vtp, "type=\"PolyData\"", "type=\"UnstructuredGrid\"")), "Extract"));
     EXPECT_TRUE(has(refused<FileError>("a.vtk", replaced(vtk_text, "POLYDATA", "UNSTRUCTURED_GRID")), "Extract"));

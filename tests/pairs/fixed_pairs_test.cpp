@@ -24,13 +24,16 @@ double weight(const Vec3& a, const Vec3& b) { return std::max(0.0, 1 - norm(a - 
 /// Floats keep distances in quanta, roots of weights in parts of the largest's.
 constexpr double quantum = support / 32000;
 template <class T>
-double kept(double w) { return sizeof(T) == 4 ? std::pow(std::round(PairUnits::parts * std::sqrt(w)) / PairUnits::parts, 2) : w; }
+double kept(double w) {
+    return sizeof(T) == 4 ? std::pow(std::round(PairUnits::parts * std::sqrt(w)) / PairUnits::parts, 2) : w;
+}
 
 /// sum w d, sum w (q_i + q_j), with a further number of both.
 struct Everything {
     static constexpr std::size_t own_quads = 1, quads = 1, sums = 4;
     template <class P>
-    void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>& i, const std::array<Quads<P>, 1>& j, std::array<P, 4>& sum) const {
+    void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>& i, const std::array<Quads<P>, 1>& j,
+                    std::array<P, 4>& sum) const {
         sum[0] += pair.wd.x, sum[1] += pair.wd.y, sum[2] += pair.wd.z;
         sum[3] = fma(pair.w, i[0].b + j[0].c, sum[3]);
     }
@@ -46,7 +49,9 @@ struct FixedPairsOf : testing::Test {
     FixedPairsOf() {
         const Frame frame(box.low, box.high, support);
         std::vector<Vec3> places = random_points(box, 1501, 5);   // the last group is not full
-        for (Vec3& x : places) x = {quantum * std::round(x.x / quantum), quantum * std::round(x.y / quantum), quantum * std::round(x.z / quantum)};
+        for (Vec3& x : places)
+            x = {quantum * std::round(x.x / quantum), quantum * std::round(x.y / quantum),
+                 quantum * std::round(x.z / quantum)};
         Sorted sorted(frame, 1e-3, places);
         Neighbours found;
         found.find_own(frame, sorted.cells, support, native_lanes<T>);
@@ -54,7 +59,9 @@ struct FixedPairsOf : testing::Test {
         const auto order = find_order(as_found, [](std::uint32_t) { return 0; });
         points = taken(sorted.points, order);
         rows = reordered(as_found, order);
-        pairs.make(rows, {quantum, 1}, [&](std::uint32_t i, std::uint32_t j) { return FoundPair{points[i] - points[j], weight(points[i], points[j])}; });
+        pairs.make(rows, {quantum, 1}, [&](std::uint32_t i, std::uint32_t j) {
+            return FoundPair{points[i] - points[j], weight(points[i], points[j])};
+        });
         records.reset(pairs.padded_size(), {T(0), T(0), T(0), T(0)});
         for (std::size_t i = 0; i < points.size(); ++i) records[i] = {T(0), T(0.5) * T(i % 7), T(i % 11), T(0)};
     }
@@ -63,9 +70,12 @@ struct FixedPairsOf : testing::Test {
     std::array<AlignedVector<T>, 4> sums(LoopKind kind) {
         std::array<AlignedVector<T>, 4> result;
         for (auto& column : result) column.reset(pairs.padded_size(), T(-7));
-        pairs.template sum<Everything>({records.data()}, {records.data()}, {}, [&](std::size_t i, const auto& s) {
-            for (std::size_t k = 0; k < 4; ++k) store(s[k], &result[k][i]);
-        }, kind);
+        pairs.template sum<Everything>(
+            {records.data()}, {records.data()}, {},
+            [&](std::size_t i, const auto& s) {
+                for (std::size_t k = 0; k < 4; ++k) store(s[k], &result[k][i]);
+            },
+            kind);
         return result;
     }
     std::vector<T> flat(LoopKind kind) {
@@ -105,7 +115,8 @@ TYPED_TEST(FixedPairsOf, MeetAllNeighboursAndNobodyElse) {
         ++visited, seen.insert({i, j});
         const double w = kept<TypeParam>(weight(this->points[i], this->points[j]));
         EXPECT_NEAR(double(pair.w), w, sizeof(TypeParam) == 4 ? 1e-7 : 0.0);
-        EXPECT_NEAR(double(pair.wd.x), w * (this->points[i].x - this->points[j].x), (sizeof(TypeParam) == 4 ? 1e-6 : 1e-15) * support);
+        EXPECT_NEAR(double(pair.wd.x), w * (this->points[i].x - this->points[j].x),
+                    (sizeof(TypeParam) == 4 ? 1e-6 : 1e-15) * support);
     });
     EXPECT_EQ(visited, count);
     EXPECT_EQ(seen.size(), count);
@@ -160,7 +171,8 @@ TEST(FixedRowsJoined, AreThoseThatAThirdParticleIsNearToOrThatAreNearThemselves)
                 EXPECT_TRUE(row.count(j)) << "within a layer, or of the post";
             } else if (row.count(j)) {
                 ++across;
-                EXPECT_LT(std::max(std::hypot(x[i].x, x[i].y), std::hypot(x[j].x, x[j].y)), 1.5) << "away from the post";
+                EXPECT_LT(std::max(std::hypot(x[i].x, x[i].y), std::hypot(x[j].x, x[j].y)), 1.5)
+                    << "away from the post";
             }
         }
     }

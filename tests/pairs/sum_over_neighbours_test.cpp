@@ -53,7 +53,8 @@ struct Count {
     template <class P>
     void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&, std::array<P, 4>& sum) const {
         sum[0] += pair.t;
-        sum[1] = fma(pair.t, pair.d.x, sum[1]), sum[2] = fma(pair.t, pair.d.y, sum[2]), sum[3] = fma(pair.t, pair.d.z, sum[3]);
+        sum[1] = fma(pair.t, pair.d.x, sum[1]), sum[2] = fma(pair.t, pair.d.y, sum[2]),
+        sum[3] = fma(pair.t, pair.d.z, sum[3]);
     }
 };
 
@@ -72,8 +73,11 @@ struct Body : Sorted {
             first[i] = quad(), second[i] = quad();
         }
         // The dummy: far from all, and nothing.
-        if constexpr (sizeof(T) == 4) geometry[n] = {std::bit_cast<float>(INT32_MIN), std::bit_cast<float>(INT32_MIN), std::bit_cast<float>(INT32_MIN), 0};
-        else geometry[n] = {1e9, 1e9, 1e9, 0};
+        if constexpr (sizeof(T) == 4)
+            geometry[n] = {std::bit_cast<float>(INT32_MIN), std::bit_cast<float>(INT32_MIN),
+                           std::bit_cast<float>(INT32_MIN), 0};
+        else
+            geometry[n] = {1e9, 1e9, 1e9, 0};
         first[n] = second[n] = {0, 0, 0, 0};
     }
     static Quad<T> place(const Frame& frame, const Vec3& x, T value) {
@@ -90,11 +94,13 @@ template <class T, class Term>
 using Sums = std::vector<std::array<T, std::size_t(Term::sums)>>;
 
 template <class T>
-Sums<T, Everything> sum_everything(const Neighbours& rows, const PairScale& scale, const Body<T>& own, const Body<T>& other, LoopKind kind) {
+Sums<T, Everything> sum_everything(const Neighbours& rows, const PairScale& scale, const Body<T>& own,
+                                   const Body<T>& other, LoopKind kind) {
     Sums<T, Everything> result(own.points.size(), {T(-7)});   // where there is no row
-    sum_over_neighbours<T>(rows, scale, Records<T, 2>{own.geometry.data(), own.first.data(), own.second.data()},
-                           Records<T, 1>{other.geometry.data(), other.first.data()}, Everything{},
-                           [&](std::uint32_t i, const std::array<T, 6>& sum) { result[i] = sum; }, kind);
+    sum_over_neighbours<T>(
+        rows, scale, Records<T, 2>{own.geometry.data(), own.first.data(), own.second.data()},
+        Records<T, 1>{other.geometry.data(), other.first.data()}, Everything{},
+        [&](std::uint32_t i, const std::array<T, 6>& sum) { result[i] = sum; }, kind);
     return result;
 }
 
@@ -153,7 +159,8 @@ TYPED_TEST(PairLoop, DifferencesOfAConstantVanish) {
     for (std::size_t i = 0; i <= this->own.points.size(); ++i) this->own.geometry[i].d = T(101325.125);
     std::size_t rows = 0;
     sum_over_neighbours<T>(this->own_rows, this->scale, Records<T, 0>{this->own.geometry.data()},
-                           Records<T, 0>{this->own.geometry.data()}, Difference{}, [&](std::uint32_t, const std::array<T, 1>& sum) {
+                           Records<T, 0>{this->own.geometry.data()}, Difference{},
+                           [&](std::uint32_t, const std::array<T, 1>& sum) {
 #pragma omp atomic
                                ++rows;
                                EXPECT_EQ(sum[0], T(0));
@@ -194,8 +201,9 @@ TYPED_TEST(PairLoop, TwoBodiesGiveWhatOneBodyOfBothGives) {
     rows.find_own(this->frame, both.cells, support, native_lanes<T>);
     const auto count = [&](const Neighbours& n, const Body<T>& a, const Body<T>& b) {
         std::vector<double> sums(a.points.size(), 0.0);
-        sum_over_neighbours<T>(n, this->scale, Records<T, 0>{a.geometry.data()}, Records<T, 0>{b.geometry.data()}, Count{},
-                               [&](std::uint32_t i, const std::array<T, 4>& sum) { sums[i] = sum[1] * this->scale.unit / support; });
+        sum_over_neighbours<T>(
+            n, this->scale, Records<T, 0>{a.geometry.data()}, Records<T, 0>{b.geometry.data()}, Count{},
+            [&](std::uint32_t i, const std::array<T, 4>& sum) { sums[i] = sum[1] * this->scale.unit / support; });
         return sums;
     };
     auto parts = count(this->own_rows, this->own, this->own);
@@ -211,4 +219,4 @@ TYPED_TEST(PairLoop, TwoBodiesGiveWhatOneBodyOfBothGives) {
     }
 }
 
-}  // namespace
+}   // namespace

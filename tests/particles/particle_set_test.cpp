@@ -74,7 +74,8 @@ TEST(ParticleSet, GrowsWithZerosAndKeepsWhatIsThere) {
     }
     m.resize(2);
     for (const FieldBase* field : m.fields())
-        EXPECT_EQ(field->bytes().size(), 2 * std::size_t(field->components()) * (field->is_integer() ? 4 : 8)) << field->name();
+        EXPECT_EQ(field->bytes().size(), 2 * std::size_t(field->components()) * (field->is_integer() ? 4 : 8))
+            << field->name();
     expect_is(m, 1, 1);
 }
 
@@ -134,11 +135,13 @@ TEST(ParticleSetDeathTest, TwoFieldsOfOneNameAreAMistake) {
 #ifdef NDEBUG
     GTEST_SKIP() << "asserted in debug builds only";
 #else
-    EXPECT_DEATH({
-        Marbles m;
-        Field<double> twin(m, "weight", "kg", Keep::state);
-    }, "share a name");
+    EXPECT_DEATH(
+        {
+            Marbles m;
+            Field<double> twin(m, "weight", "kg", Keep::state);
+        },
+        "share a name");
 #endif
 }
 
-}  // namespace
+}   // namespace

@@ -31,7 +31,8 @@ TEST(DevelopedFlow, StaysWhereItHasSettled) {
     flow.start_from(places, speeds, 0.2);   // a parabola is found whatever the places
     for (int k = 0; k < 3; ++k) {
         flow.begin_step(TimeRate::of_steps(1e-2, k == 0 ? 0 : 1e-2));
-        for (const double s : places) EXPECT_NEAR(flow.rest(s) + 0.2 * flow.unit(s), 0.2 * parabola_profile(Section::circular, s), 1e-4);
+        for (const double s : places)
+            EXPECT_NEAR(flow.rest(s) + 0.2 * flow.unit(s), 0.2 * parabola_profile(Section::circular, s), 1e-4);
         flow.end_step(0.2);
     }
 }
@@ -58,7 +59,8 @@ double error_of(Section section, double alpha, int steps, int periods) {
 TEST(DevelopedFlow, OfAnOscillationIsWomersleysProfile) {
     for (const Section section : {Section::circular, Section::planar})
         for (const double alpha : {1.0, 2.8, 5.0, 12.0}) EXPECT_LT(error_of(section, alpha, 400, 12), 2e-3) << alpha;
-    EXPECT_GT(error_of(Section::circular, 5, 50, 4), 10 * error_of(Section::circular, 5, 200, 4));   // of second order in time
+    EXPECT_GT(error_of(Section::circular, 5, 50, 4),
+              10 * error_of(Section::circular, 5, 200, 4));   // of second order in time
 }
 
 TEST(DevelopedFlow, GoesOnFromItsState) {

@@ -71,8 +71,8 @@ TEST(Outlets, rcr_relaxes_exponentially) {
 TEST(Outlets, many_small_steps_are_one_large_step) {
     // Exact for inputs linear in time: twenty steps and one give the same but for round-off.
     Coronary model = coronary();
-    model.myocardial_pressure = make_waveform(std::vector<double>{0, 2}, std::vector<double>{2000, 9000},
-                                              Interpolation::linear, Repeat::once);
+    model.myocardial_pressure =
+        make_waveform(std::vector<double>{0, 2}, std::vector<double>{2000, 9000}, Interpolation::linear, Repeat::once);
     const auto q = [](double t) { return 1e-6 * (1 + 3 * t); };
     for (const OutletModel& m : {OutletModel(model), OutletModel(rcr)}) {
         const OutletState start{8000, 7000};
@@ -156,8 +156,8 @@ TEST(Outlets, response_is_the_pressure_at_the_end_of_the_step) {
                 const OutletState x = make_steady_state(model, 0.5e-6);
                 const TimeStep step{0.3, dt};
                 const OutletResponse constant = step_response(model, x, step);
-                EXPECT_NEAR(constant.p0 + constant.dp_dq * q,
-                            outlet_pressure(model, advanced(model, x, step, q), q), 1e-8);
+                EXPECT_NEAR(constant.p0 + constant.dp_dq * q, outlet_pressure(model, advanced(model, x, step, q), q),
+                            1e-8);
                 const OutletResponse linear = step_response(model, x, step, 0.7e-6);
                 EXPECT_NEAR(linear.p0 + linear.dp_dq * q,
                             outlet_pressure(model, advanced(model, x, step, 0.7e-6, q), q), 1e-8);
@@ -211,5 +211,5 @@ TEST(Outlets, refuses_what_cannot_be_a_vessel_bed) {
     EXPECT_THROW(expect_valid(dry), DeckError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

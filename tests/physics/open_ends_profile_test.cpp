@@ -209,7 +209,7 @@ TEST(Womersley, pressure_gradient_makes_the_flow_and_the_flow_the_gradient) {
 TEST(Womersley, steady_part_is_poiseuille) {
     const FourierSeries steady{2e-6, {}, {}, 1};
     const WomersleyProfile pipe(Section::circular, 0.002, 1060, 0.0035, steady);
-    EXPECT_NEAR(pipe.wall_shear_stress(0), 4 * 0.0035 * 2e-6 / (pi * 8e-9), 1e-12);           // THEORY (12.4)
+    EXPECT_NEAR(pipe.wall_shear_stress(0), 4 * 0.0035 * 2e-6 / (pi * 8e-9), 1e-12);   // THEORY (12.4)
     EXPECT_NEAR(pipe.pressure_gradient(0), 8 * 0.0035 * 2e-6 / (pi * 16e-12), 1e-9);
     EXPECT_NEAR(pipe.velocity(0, 0), 2 * 2e-6 / (pi * 4e-6), 1e-14);
     const WomersleyProfile gap(Section::planar, 0.002, 1060, 0.0035, steady);
@@ -220,5 +220,5 @@ TEST(Womersley, number) {   // a coronary artery at one beat per second
     EXPECT_NEAR(womersley_number(0.002, 2 * pi, 1 / 3.3e-6, 1.0), 2.76, 0.005);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

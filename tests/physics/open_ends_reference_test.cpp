@@ -77,8 +77,8 @@ TEST_F(AgainstSvZeroD, steady_outlets) {
 
     const ZeroD b = read_zero_d("steadyFlow_R_coronary");
     const auto& o = b.outlet;
-    const OutletModel coronary = Coronary{o.at("Ra1"), o.at("Ca"), o.at("Ra2"), o.at("Cc"), o.at("Rv1"), o.at("P_v"),
-                                          make_constant(o.at("Pim").at(0))};
+    const OutletModel coronary = Coronary{
+        o.at("Ra1"), o.at("Ca"), o.at("Ra2"), o.at("Cc"), o.at("Rv1"), o.at("P_v"), make_constant(o.at("Pim").at(0))};
     OutletState x{};   // from empty: the stored run is 30 s long, ours the same in 30 steps
     for (int i = 0; i < 30; ++i) x = advanced(coronary, x, {double(i), 1}, 5);
     EXPECT_NEAR(outlet_pressure(coronary, x, 5), b.outlet_pressure.back(), 1e-5);
@@ -172,5 +172,5 @@ TEST(PublishedWaveforms, are_accepted_as_periodic) {
     }
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -32,8 +32,8 @@ double returned_share(double period) {
 }
 
 TEST(SoundAbsorber, LetsOutTheSlowestSwingOfAVessel) {
-    EXPECT_LT(returned_share(4 * crossing), 0.2);        // a quarter wave, which comes back whole without it
-    EXPECT_LT(returned_share(4.0 / 3 * crossing), 0.1);  // and its next
+    EXPECT_LT(returned_share(4 * crossing), 0.2);         // a quarter wave, which comes back whole without it
+    EXPECT_LT(returned_share(4.0 / 3 * crossing), 0.1);   // and its next
 }
 
 TEST(SoundAbsorber, HoldsTheFlowAgainstADrift) {
@@ -58,7 +58,8 @@ double returned_from_pressure(double period) {
     std::complex<double> wave{};
     double span = 0;
     for (double t = 0; t < 40 * period; t += dt) {
-        const double in = std::sin(omega * t), q = in / end.impedance + 0.5 * end.mean, pressure = end.impedance * (q - end.mean);
+        const double in = std::sin(omega * t), q = in / end.impedance + 0.5 * end.mean,
+                     pressure = end.impedance * (q - end.mean);
         end.follow(q, dt);
         if (t < 20 * period) continue;
         wave += (pressure - in) * std::polar(dt, -omega * t);
@@ -81,5 +82,5 @@ TEST(SoundAbsorber, HearsNothingInAPressureThatIsItsMean) {
     EXPECT_EQ(end.mean, 80);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

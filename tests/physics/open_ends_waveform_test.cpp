@@ -72,8 +72,7 @@ TEST(Waveform, cubic_has_no_overshoot_and_a_continuous_slope) {
     const Waveform f = table(Interpolation::monotone_cubic, Repeat::periodic);
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
         const double step = (times[i + 1] - times[i]) / 100, rise = values[i + 1] - values[i];
-        for (int k = 0; k < 100; ++k)
-            EXPECT_GE((f(times[i] + (k + 1) * step) - f(times[i] + k * step)) * rise, -1e-14);
+        for (int k = 0; k < 100; ++k) EXPECT_GE((f(times[i] + (k + 1) * step) - f(times[i] + k * step)) * rise, -1e-14);
     }
     for (double t : times) {
         // One-sided differences at distance d agree to O(d f''), f'' below 6 * 5 / 0.1^2.
@@ -87,7 +86,9 @@ TEST(Waveform, cubic_converges_faster_than_linear) {
     // monotonicity costs an order. In the mean over the period: order 2 for linear, at least 2.5 for the cubic.
     const auto error = [](std::size_t count, Interpolation interpolation) {
         const auto wave = [](double t) { return std::sin(2 * pi * t); };
-        Numbers t = sampled(count, [](double x) { return x; }, 1), v = sampled(count, wave, 1);
+        Numbers t = sampled(
+                    count, [](double x) { return x; }, 1),
+                v = sampled(count, wave, 1);
         const Waveform f = make_waveform(t, v, interpolation, Repeat::periodic);
         double sum = 0;
         for (int i = 0; i < 10000; ++i) sum += std::abs(f(i / 1e4) - wave(i / 1e4)) / 1e4;
@@ -188,8 +189,8 @@ TEST(Waveform, refuses_what_is_not_a_function_of_time) {
     EXPECT_THROW(make({0, nan}, {1, 2}), DeckError);
     EXPECT_THROW(make({0, 1}, {1, nan}), DeckError);
     EXPECT_THROW(make({0, 1}, {1, std::numeric_limits<double>::infinity()}), DeckError);
-    EXPECT_THROW(make({0, 1}, {1, 2}, Repeat::periodic), DeckError);          // does not close
-    EXPECT_THROW(make({0, 1}, {1, 1}, Repeat::periodic, 0.5), DeckError);     // longer than its period
+    EXPECT_THROW(make({0, 1}, {1, 2}, Repeat::periodic), DeckError);        // does not close
+    EXPECT_THROW(make({0, 1}, {1, 1}, Repeat::periodic, 0.5), DeckError);   // longer than its period
     EXPECT_THROW(make({0, 1}, {1, 1}, Repeat::periodic, -1.0), DeckError);
     EXPECT_THROW(make({0, 1}, {1, 1}, Repeat::once, 1.0), DeckError);
     EXPECT_THROW(make_constant(nan), DeckError);
@@ -209,5 +210,5 @@ TEST(SmoothRamp, rises_once_from_zero_to_one) {
     EXPECT_NEAR(smooth_ramp(1e-4, 2), 0.25 * pi * pi * 0.25e-8, 1e-15);   // no jump of slope: (pi t / 2T)^2
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -22,8 +22,8 @@ std::vector<double> pull(const J2Plastic& law, const std::vector<double>& strain
     for (const double to : strains) {
         for (int k = 1; k <= steps; ++k) {
             const double axial = std::exp(from + (to - from) * k / steps);
-            const UniaxialPoint p = pull_uniaxially([&](const Mat3& F) { return law.stress(F, state).kirchhoff; }, axial,
-                                                    lateral, law.elastic.young());
+            const UniaxialPoint p = pull_uniaxially([&](const Mat3& F) { return law.stress(F, state).kirchhoff; },
+                                                    axial, lateral, law.elastic.young());
             lateral = p.lateral;
             state = law.stress({{axial, 0, 0}, {0, lateral, 0}, {0, 0, lateral}}, state).state;
             if (k == steps) stresses.push_back(p.stress);
@@ -96,7 +96,8 @@ TEST(J2Plastic, ARotatedObserverSeesTheRotatedStressAndTheSameState) {
     const Mat3 F{{1.02, 0.03, 0}, {0.01, 0.99, -0.02}, {0, 0.01, 1.005}};
     const Mat3 R{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}};
     const PlasticStress a = law.stress(F, {}), b = law.stress(R * F, {});
-    const Mat3 stress = b.kirchhoff - R * a.kirchhoff * transpose(R), state = b.state.inverse_plastic - a.state.inverse_plastic;
+    const Mat3 stress = b.kirchhoff - R * a.kirchhoff * transpose(R),
+               state = b.state.inverse_plastic - a.state.inverse_plastic;
     EXPECT_LT(std::sqrt(double_dot(stress, stress)), 1e-9 * 300e6);
     EXPECT_LT(std::sqrt(double_dot(state, state)), 1e-12);
 }
@@ -111,9 +112,11 @@ TEST(J2Plastic, ElasticStressIsTheSlopeOfItsEnergy) {
 }
 
 TEST(SymmetricEigen, RebuildsTheMatrixAlsoWhereValuesMeet) {
-    for (const Mat3& a : {Mat3{{2, 1, 0}, {1, 3, -1}, {0, -1, 4}}, Mat3{{1 + 1e-9, 1e-10, 0}, {1e-10, 1, 0}, {0, 0, 1}}, identity<double>()}) {
+    for (const Mat3& a : {Mat3{{2, 1, 0}, {1, 3, -1}, {0, -1, 4}}, Mat3{{1 + 1e-9, 1e-10, 0}, {1e-10, 1, 0}, {0, 0, 1}},
+                          identity<double>()}) {
         const SymmetricEigen e = symmetric_eigen(a);
-        const Mat3 off = from_eigen(e.values, e.vectors) - a, turn = e.vectors * transpose(e.vectors) - identity<double>();
+        const Mat3 off = from_eigen(e.values, e.vectors) - a,
+                   turn = e.vectors * transpose(e.vectors) - identity<double>();
         EXPECT_LT(std::sqrt(double_dot(off, off)), 1e-14);
         EXPECT_LT(std::sqrt(double_dot(turn, turn)), 1e-14);
     }

@@ -68,16 +68,19 @@ TEST(ProfileMarch, APlugLosesTheExcessOfAnEntrance) {
     for (double x : {0.001, 0.01, 0.05, 0.2}) {
         const Tube t = tube(x * diameter * reynolds, [](double) { return 3e-3; });
         const double drop = -march_profile(blood, t.arc, t.area, flow, TreeProfile::between(1)).pressure.back();
-        const double excess = (drop - 128 * mu * t.arc.back() * flow / (pi * std::pow(diameter, 4))) / (0.5 * rho * speed * speed);
+        const double excess =
+            (drop - 128 * mu * t.arc.back() * flow / (pi * std::pow(diameter, 4))) / (0.5 * rho * speed * speed);
         EXPECT_NEAR(excess, entrance_excess(x), 0.1) << x;
     }
 }
 
 TEST(ProfileMarch, ASlowConeIsPoiseuilleIntegrated) {
     const double flow = 1e-9, length = 0.03;   // Re 0.5: momentum counts for nothing
-    const Tube t = tube(length, [=](double s) { return 4e-3 - 2e-3 * s / length; }, 2001);
+    const Tube t = tube(
+        length, [=](double s) { return 4e-3 - 2e-3 * s / length; }, 2001);
     const double friction = 128 * mu * flow / pi * length / (3 * 2e-3) * (std::pow(2e-3, -3) - std::pow(4e-3, -3));
-    EXPECT_NEAR(march_profile(blood, t.arc, t.area, flow, TreeProfile::between(0)).pressure.back() / -friction, 1, 2e-3);
+    EXPECT_NEAR(march_profile(blood, t.arc, t.area, flow, TreeProfile::between(0)).pressure.back() / -friction, 1,
+                2e-3);
 }
 
 TEST(ProfileMarch, AFastContractionIsBernoulli) {   // too short for friction
@@ -90,7 +93,8 @@ TEST(ProfileMarch, AFastContractionIsBernoulli) {   // too short for friction
 }
 
 TEST(ProfileMarch, AJetGivesBackPartOfItsPressureAndThenLosesMore) {
-    const Tube t = tube(0.06, [](double s) { return 3e-3 - 1.5e-3 * std::exp(-std::pow((s - 0.02) / 2e-3, 2)); }, 601);
+    const Tube t = tube(
+        0.06, [](double s) { return 3e-3 - 1.5e-3 * std::exp(-std::pow((s - 0.02) / 2e-3, 2)); }, 601);
     const auto pressure = march_profile(blood, t.arc, t.area, 2e-6, TreeProfile::between(0)).pressure;
     const auto throat = std::min_element(pressure.begin(), pressure.begin() + 300);
     const double bernoulli = 0.5 * rho * std::pow(2e-6 / t.area[200], 2) * (1 - 1.0 / 16);
@@ -102,8 +106,11 @@ TEST(ProfileMarch, AJetGivesBackPartOfItsPressureAndThenLosesMore) {
 TEST(ProfileMarch, AThroatThatIsNearlyClosedIsPassedToo) {
     // 0.45 mm and 0.3 mm wide behind 3 mm: pressures grow with the square of the flow, as jets' do, however much there is of it.
     for (double depth : {0.85, 0.9}) {
-        const Tube t = tube(0.03, [=](double s) { return 3e-3 * (1 - depth * std::exp(-std::pow((s - 0.015) / 1e-3, 2))); }, 301);
-        const auto drop = [&](double flow) { return -march_profile(blood, t.arc, t.area, flow, TreeProfile::between(0)).pressure.back(); };
+        const Tube t = tube(
+            0.03, [=](double s) { return 3e-3 * (1 - depth * std::exp(-std::pow((s - 0.015) / 1e-3, 2))); }, 301);
+        const auto drop = [&](double flow) {
+            return -march_profile(blood, t.arc, t.area, flow, TreeProfile::between(0)).pressure.back();
+        };
         const double some = drop(0.25e-6), twice = drop(0.5e-6);
         EXPECT_GT(twice, 3 * some) << depth;
         EXPECT_LT(twice, 4.2 * some) << depth;

@@ -73,8 +73,8 @@ TEST(Rheology, largest_viscosity_bounds_the_law) {
 
 TEST(Rheology, blood_laws_agree_where_blood_is_measured_best) {
     // Whole blood at 100/s and 37 degrees C is 4 to 6 mPa s in every published set: catches a slipped unit.
-    for (const Rheology& law : {Rheology(blood_carreau), Rheology(blood_carreau_yasuda), Rheology(blood_casson),
-                                Rheology(blood_power_law)}) {
+    for (const Rheology& law :
+         {Rheology(blood_carreau), Rheology(blood_carreau_yasuda), Rheology(blood_casson), Rheology(blood_power_law)}) {
         EXPECT_GT(viscosity(law, 100.0), 0.004);
         EXPECT_LT(viscosity(law, 100.0), 0.006);
     }
@@ -93,5 +93,5 @@ TEST(Rheology, wall_shear_rate_of_a_newtonian_pipe) {
     EXPECT_DOUBLE_EQ(wall_shear_rate(newtonian, 0.002, 1e-6), 4e-6 / (std::numbers::pi * 8e-9));
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

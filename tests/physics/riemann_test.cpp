@@ -77,5 +77,5 @@ TEST(Riemann, is_the_same_in_packs) {
     EXPECT_EQ(star_velocity(pl, pr, P(c))[P::lanes - 1], star_velocity(l, r, c));
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

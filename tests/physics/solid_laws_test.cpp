@@ -29,14 +29,20 @@ struct Law {
 
 template <class L>
 Law isotropic(const char* name, const L& law) {
-    return {name, law.moduli(), [law](const Mat3& F) { return law.energy(F); }, [law](const Mat3& F) { return law.pk1(F); },
-            [law](const Mat3& C) { return law.pk2(C); }, [law](const Mat3& F) { return law.kirchhoff(F); }};
+    return {name,
+            law.moduli(),
+            [law](const Mat3& F) { return law.energy(F); },
+            [law](const Mat3& F) { return law.pk1(F); },
+            [law](const Mat3& C) { return law.pk2(C); },
+            [law](const Mat3& F) { return law.kirchhoff(F); }};
 }
 
 std::vector<Law> laws() {
     const FibreArtery artery{3e4, 5e4, 8, 0.1, 6e5};
-    return {isotropic("neo-Hookean", NeoHookean::from(moduli)), isotropic("St. Venant-Kirchhoff", StVenantKirchhoff::from(moduli)),
-            isotropic("Mooney-Rivlin", MooneyRivlin{3e4, 1e4, 2e5}), isotropic("Yeoh", Yeoh{3e4, 2e4, 1e4, 2e5}),
+    return {isotropic("neo-Hookean", NeoHookean::from(moduli)),
+            isotropic("St. Venant-Kirchhoff", StVenantKirchhoff::from(moduli)),
+            isotropic("Mooney-Rivlin", MooneyRivlin{3e4, 1e4, 2e5}),
+            isotropic("Yeoh", Yeoh{3e4, 2e4, 1e4, 2e5}),
             {"fibre artery", artery.moduli(), [=](const Mat3& F) { return artery.energy(F, fibres); },
              [=](const Mat3& F) { return artery.pk1(F, fibres); }, [=](const Mat3& C) { return artery.pk2(C, fibres); },
              [=](const Mat3& F) { return artery.kirchhoff(F, fibres); }}};
@@ -91,7 +97,8 @@ TEST(SolidLaws, ARotatedObserverSeesTheSameEnergyAndTheRotatedStress) {
     for (const Law& law : laws())
         for (const Mat3& F : deformations()) {
             EXPECT_NEAR(law.energy(R * F), law.energy(F), 1e-10 * law.moduli.bulk) << law.name;
-            EXPECT_LT(size(law.pk1(R * F) - R * law.pk1(F)), 1e-12 * law.moduli.bulk + 1e-12 * size(law.pk1(F))) << law.name;
+            EXPECT_LT(size(law.pk1(R * F) - R * law.pk1(F)), 1e-12 * law.moduli.bulk + 1e-12 * size(law.pk1(F)))
+                << law.name;
         }
 }
 
@@ -107,8 +114,10 @@ TEST(SolidLaws, AllRoutesGiveTheSameStress) {
     for (const Law& law : laws())
         for (const Mat3& F : deformations()) {
             const Mat3 P = law.pk1(F);
-            EXPECT_LT(size(F * law.pk2_of_C(transpose(F) * F) - P), 1e-12 * size(P) + 1e-12 * law.moduli.bulk) << law.name;
-            EXPECT_LT(size(pk1_of_kirchhoff(law.kirchhoff(F), F) - P), 1e-12 * size(P) + 1e-12 * law.moduli.bulk) << law.name;
+            EXPECT_LT(size(F * law.pk2_of_C(transpose(F) * F) - P), 1e-12 * size(P) + 1e-12 * law.moduli.bulk)
+                << law.name;
+            EXPECT_LT(size(pk1_of_kirchhoff(law.kirchhoff(F), F) - P), 1e-12 * size(P) + 1e-12 * law.moduli.bulk)
+                << law.name;
         }
 }
 
@@ -143,7 +152,8 @@ TEST(SolidLaws, FibresPullOnlyWhenStretched) {
     EXPECT_EQ(artery.pk1(stretched(0.9), along), bare.pk1(stretched(0.9), along));
     // Both families along x: tau_xx = 2 * 2 k1 E exp(k2 E^2) l^2, E = l^2 - 1.
     const double l = 1.2, E = l * l - 1, by_hand = 4 * 5e4 * E * std::exp(8 * E * E) * l * l;
-    EXPECT_NEAR((artery.kirchhoff(stretched(l), along) - bare.kirchhoff(stretched(l), along)).x.x, by_hand, 1e-9 * by_hand);
+    EXPECT_NEAR((artery.kirchhoff(stretched(l), along) - bare.kirchhoff(stretched(l), along)).x.x, by_hand,
+                1e-9 * by_hand);
 }
 
 TEST(SolidLaws, NeoHookeanUnderUniformStretchByHand) {

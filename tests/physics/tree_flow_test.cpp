@@ -140,7 +140,8 @@ TEST(TreeFlow, ASlowBranchRegainsPartOfWhatItsParentsSpeedIsWorth) {
     EXPECT_EQ(answer.profile[1].front().speed.back(), 0);
 }
 
-TEST(TreeFlow, AHairThinThroatLetsThroughWhatThePressureDrives) {   // the flow that it begins with is far too much for it
+TEST(TreeFlow,
+     AHairThinThroatLetsThroughWhatThePressureDrives) {   // the flow that it begins with is far too much for it
     TreeBranch throat = tube(-1, 0.03, 3e-3, 3e-3, 301);
     for (std::size_t k = 0; k < throat.arc.size(); ++k)
         throat.area[k] *= std::pow(1 - 0.95 * std::exp(-std::pow((throat.arc[k] - 0.015) / 1e-3, 2)), 2);

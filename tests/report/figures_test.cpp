@@ -12,13 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const Json& summary() {
-    static const Json json = Json::parse(R"({"before": {"drop_pa": 1333.22387415, "ffr": 0.8049, "text": "<b>", "none": null, "flow": -4e-6,
+    static const Json json =
+        Json::parse(R"({"before": {"drop_pa": 1333.22387415, "ffr": 0.8049, "text": "<b>", "none": null, "flow": -4e-6,
                                              "small": -0.0004, "openings": {"a/b~c\"": {"flow": 1e-6}}}})");
     return json;
 }
 
 TEST(Figures, TextCannotBecomeMarkup) {
-    EXPECT_EQ(escaped("<a href='x' title=\"y\">&amp;</a>"), "&lt;a href=&#39;x&#39; title=&quot;y&quot;&gt;&amp;amp;&lt;/a&gt;");
+    EXPECT_EQ(escaped("<a href='x' title=\"y\">&amp;</a>"),
+              "&lt;a href=&#39;x&#39; title=&quot;y&quot;&gt;&amp;amp;&lt;/a&gt;");
     EXPECT_EQ(escaped("µ → é"), "µ → é");
     EXPECT_EQ(Figures(summary()).text("/before/text"), "&lt;b&gt;");
     EXPECT_EQ(Figures(summary()).text("/before/ffr"), "");
@@ -26,10 +28,14 @@ TEST(Figures, TextCannotBecomeMarkup) {
 
 TEST(Figures, CarryWhereTheyComeFrom) {
     const Figures f(summary());
-    EXPECT_EQ(f.number("/before/ffr", {"", 1, 2}), "<data value=\"0.8049\" data-path=\"/before/ffr\" data-scale=\"1\" data-digits=\"2\">0.80</data>");
-    EXPECT_NE(f.with_unit("/before/drop_pa", as_mmHg).find(">10.00</data><span class=\"unit\"> mmHg</span>"), std::string::npos);
-    EXPECT_NE(f.scientific("/before/flow", 2, -1).find("data-scale=\"-1\" data-digits=\"e2\">4.00e-06<"), std::string::npos);
-    EXPECT_NE(f.ratio("/before/openings/a~1b~0c\"/flow", "/before/flow", {"%", -100, 1}).find(">25.0<"), std::string::npos);
+    EXPECT_EQ(f.number("/before/ffr", {"", 1, 2}),
+              "<data value=\"0.8049\" data-path=\"/before/ffr\" data-scale=\"1\" data-digits=\"2\">0.80</data>");
+    EXPECT_NE(f.with_unit("/before/drop_pa", as_mmHg).find(">10.00</data><span class=\"unit\"> mmHg</span>"),
+              std::string::npos);
+    EXPECT_NE(f.scientific("/before/flow", 2, -1).find("data-scale=\"-1\" data-digits=\"e2\">4.00e-06<"),
+              std::string::npos);
+    EXPECT_NE(f.ratio("/before/openings/a~1b~0c\"/flow", "/before/flow", {"%", -100, 1}).find(">25.0<"),
+              std::string::npos);
 }
 
 TEST(Figures, WhatIsNotThereIsADash) {

@@ -9,8 +9,12 @@ namespace patency {
 namespace {
 
 PolyData tent() {
-    PolyData data{.points = {{0, 0, 0}, {0.02, 0, 0}, {0.02, 0.01, 0.003}, {0, 0.01, -0.001}}, .lines = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}};
-    data.arrays = {{"Pressure", "Pa", 1, {100, 50, 0, 25}}, {"WSS", "Pa", 3, {3, 4, 0, 0, 0, 2, 1, 2, 2, 0, 0, 0}}, {"IsResolved", "1", 1, {1, 1, 1, 0}}};
+    PolyData data{.points = {{0, 0, 0}, {0.02, 0, 0}, {0.02, 0.01, 0.003}, {0, 0.01, -0.001}},
+                  .lines = {},
+                  .triangles = {{0, 1, 2}, {0, 2, 3}}};
+    data.arrays = {{"Pressure", "Pa", 1, {100, 50, 0, 25}},
+                   {"WSS", "Pa", 3, {3, 4, 0, 0, 0, 2, 1, 2, 2, 0, 0, 0}},
+                   {"IsResolved", "1", 1, {1, 1, 1, 0}}};
     return data;
 }
 const std::vector<FieldChoice> fields = {{"Pressure", "P"}, {"WSS", "S"}, {"Absent", "A"}};

@@ -22,7 +22,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json flow_summary() {
-    return Json::parse(R"({"name": "tube", "scheme": "sph", "openings": {"inlet": {"flow_m3_per_s": -1e-6, "mean_pressure_pa": 100}, "outlet": {"flow_m3_per_s": 1e-6, "mean_pressure_pa": 0}},
+    return Json::parse(
+        R"({"name": "tube", "scheme": "sph", "openings": {"inlet": {"flow_m3_per_s": -1e-6, "mean_pressure_pa": 100}, "outlet": {"flow_m3_per_s": 1e-6, "mean_pressure_pa": 0}},
                            "mass_imbalance_percent": 0.01, "particles": {"fluid": 1000, "across_narrowest": 12.5}, "ffr": {"lesion": null, "reason": "the deck gives no aortic pressure"}})");
 }
 
@@ -51,7 +52,8 @@ TEST(Page, FetchesNothing) {
     const std::string page = contents_of(write_report(folder.path(), "1.2.3"));
     EXPECT_TRUE(has(page, "default-src 'none'; script-src 'sha256-"));
     EXPECT_TRUE(has(page, "'; style-src 'sha256-"));
-    const std::string own = page.substr(0, page.find("<style>")) + page.substr(page.find("</style>"), page.rfind("<script>") - page.find("</style>"));
+    const std::string own = page.substr(0, page.find("<style>")) +
+                            page.substr(page.find("</style>"), page.rfind("<script>") - page.find("</style>"));
     EXPECT_EQ(own.find("http"), own.find("http-equiv"));   // no address anywhere but for the policy's own name
     EXPECT_EQ(own.find("http", own.find("http-equiv") + 1), own.npos);
     EXPECT_TRUE(has(page, "patency 1.2.3"));
@@ -63,15 +65,21 @@ TEST(Page, FetchesNothing) {
 /// value of their own at every point.
 TEST(Page, StaysSmallForLargeResults) {
     const ScratchFolder folder;
-    for (const char* part : {"before", "after", "deploy", "deploy/frames"}) std::filesystem::create_directory(folder / part);
+    for (const char* part : {"before", "after", "deploy", "deploy/frames"})
+        std::filesystem::create_directory(folder / part);
     for (const char* part : {"before", "after"}) write_wall(folder / part / "wall.vtp", 500);
     for (const char* body : {"stent", "wall"}) {
         write_body(folder / "deploy/frames" / body, 200);
         std::string list;
-        for (int k = 0; k < 60; ++k) list += "<DataSet timestep=\"" + std::to_string(k) + "\" part=\"0\" file=\"frames/" + body + "\"/>\n";
-        put(folder / ("deploy/" + std::string(body) + ".pvd"), "<VTKFile><Collection>\n" + list + "</Collection></VTKFile>\n");
+        for (int k = 0; k < 60; ++k)
+            list += "<DataSet timestep=\"" + std::to_string(k) + "\" part=\"0\" file=\"frames/" + body + "\"/>\n";
+        put(folder / ("deploy/" + std::string(body) + ".pvd"),
+            "<VTKFile><Collection>\n" + list + "</Collection></VTKFile>\n");
     }
-    write_summary(folder / "summary.json", {{"name", "large"}, {"before", flow_summary()}, {"deploy", {{"recoil_percent", 3.5}}}, {"after", flow_summary()}});
+    write_summary(folder / "summary.json", {{"name", "large"},
+                                            {"before", flow_summary()},
+                                            {"deploy", {{"recoil_percent", 3.5}}},
+                                            {"after", flow_summary()}});
     const RunResults results = read_results(folder.path());
     ASSERT_EQ(results.bodies.size(), 2u);
     EXPECT_EQ(results.bodies[0].frames.size(), 10u);
@@ -128,7 +136,10 @@ TEST(Page, SaysWhatResultsHaveNone) {
 
 TEST(Page, FindsTheLesionAgain) {
     const Json lesion = {{"branch", "a"}, {"throat_arc_mm", 30.0}, {"length_mm", 8.0}};
-    Json flow = {{"lesions", {{{"branch", "b"}, {"throat_arc_mm", 30.0}}, {{"branch", "a"}, {"throat_arc_mm", 50.0}}, {{"branch", "a"}, {"throat_arc_mm", 33.0}}}}};
+    Json flow = {{"lesions",
+                  {{{"branch", "b"}, {"throat_arc_mm", 30.0}},
+                   {{"branch", "a"}, {"throat_arc_mm", 50.0}},
+                   {{"branch", "a"}, {"throat_arc_mm", 33.0}}}}};
     EXPECT_EQ(find_lesion(flow, lesion), 2u);
     flow["lesions"].erase(2);
     EXPECT_EQ(find_lesion(flow, lesion), std::nullopt);
@@ -136,7 +147,9 @@ TEST(Page, FindsTheLesionAgain) {
 }
 
 TEST(Page, TheWorstLesionIsThatOfTheLowestFfrElseTheTightest) {
-    Json flow = {{"lesions", {{{"ffr", 0.9}, {"diameter_stenosis_percent", 70.0}}, {{"ffr", 0.7}, {"diameter_stenosis_percent", 50.0}}}}};
+    Json flow = {
+        {"lesions",
+         {{{"ffr", 0.9}, {"diameter_stenosis_percent", 70.0}}, {{"ffr", 0.7}, {"diameter_stenosis_percent", 50.0}}}}};
     EXPECT_EQ(worst_lesion(flow), 1u);
     for (Json& lesion : flow["lesions"]) lesion["ffr"] = nullptr;
     EXPECT_EQ(worst_lesion(flow), 0u);
@@ -145,9 +158,14 @@ TEST(Page, TheWorstLesionIsThatOfTheLowestFfrElseTheTightest) {
 
 TEST(Page, ACurveHasItsLesionAndItsLevel) {
     const PullbackCurve curve{"before", "before", {0, 10, 20}, {1, 0.9, 0.75}};
-    const std::string svg = draw_pullback({.x_label = "mm", .y_label = "a < b", .curves = {curve}, .spans = {{5, 8, "lesion"}, {90, 95, "stent"}}, .least = {}, .levels = {0.8, 0.2}});
+    const std::string svg = draw_pullback({.x_label = "mm",
+                                           .y_label = "a < b",
+                                           .curves = {curve},
+                                           .spans = {{5, 8, "lesion"}, {90, 95, "stent"}},
+                                           .least = {},
+                                           .levels = {0.8, 0.2}});
     EXPECT_TRUE(has(svg, "class=\"span lesion\""));
-    EXPECT_EQ(svg.find("span stent"), svg.npos);   // beyond the curve
+    EXPECT_EQ(svg.find("span stent"), svg.npos);                            // beyond the curve
     EXPECT_EQ(svg.find("class=\"level\""), svg.rfind("class=\"level\""));   // one level is within the axis
     EXPECT_TRUE(has(svg, "a &lt; b"));
     EXPECT_EQ(draw_pullback({.x_label = "", .y_label = "", .curves = {}, .spans = {}, .least = {}, .levels = {}}), "");

@@ -16,14 +16,16 @@ namespace {
 PolyData squares() {
     PolyData data;
     for (const auto& [half, depth] : {std::pair{1.0, 1.0}, {2.0, 0.0}})
-        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) data.points.push_back({half * x, half * y, depth});
+        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+            data.points.push_back({half * x, half * y, depth});
     data.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
     data.arrays = {{"P", "Pa", 1, {0, 0, 0, 0, 1, 1, 1, 1}}};
     return data;
 }
 
 std::array<int, 4> pixel(const Bitmap& image, double x, double y) {
-    const std::size_t at = 4 * (std::size_t(y * double(image.height)) * image.width + std::size_t(x * double(image.width)));
+    const std::size_t at =
+        4 * (std::size_t(y * double(image.height)) * image.width + std::size_t(x * double(image.width)));
     return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2], image.rgba[at + 3]};
 }
 
@@ -34,19 +36,35 @@ void expect_colour(const std::array<int, 4>& seen, const std::array<std::uint8_t
 
 TEST(Picture, TheNearerHidesTheFarther) {
     const PolyData data = squares();
-    const Bitmap image = draw_field({.surface = data, .array = "P", .range = {0, 1}, .view = {}, .frame = data, .width = 100, .most_height = 100});
+    const Bitmap image = draw_field(
+        {.surface = data, .array = "P", .range = {0, 1}, .view = {}, .frame = data, .width = 100, .most_height = 100});
     EXPECT_EQ(image.rgba.size(), 4 * image.width * image.height);
-    expect_colour(pixel(image, 0.5, 0.5), colour_of(0));    // faces look at the eye: full light
+    expect_colour(pixel(image, 0.5, 0.5), colour_of(0));   // faces look at the eye: full light
     expect_colour(pixel(image, 0.2, 0.5), colour_of(1));
-    EXPECT_EQ(pixel(image, 0.01, 0.01)[3], 0);              // the margin is transparent
+    EXPECT_EQ(pixel(image, 0.01, 0.01)[3], 0);   // the margin is transparent
     const View behind{.right = {-1, 0, 0}, .up = {0, 1, 0}, .toward = {0, 0, -1}};
-    expect_colour(pixel(draw_field({.surface = data, .array = "P", .range = {0, 1}, .view = behind, .frame = data, .width = 100, .most_height = 100}), 0.5, 0.5), colour_of(1));
+    expect_colour(pixel(draw_field({.surface = data,
+                                    .array = "P",
+                                    .range = {0, 1},
+                                    .view = behind,
+                                    .frame = data,
+                                    .width = 100,
+                                    .most_height = 100}),
+                        0.5, 0.5),
+                  colour_of(1));
 }
 
 TEST(Picture, WithoutAValueTheWallIsGrey) {
     PolyData data = squares();
     data.arrays.push_back({"IsResolved", "1", 1, {0, 0, 0, 0, 1, 1, 1, 1}});
-    const auto seen = pixel(draw_field({.surface = data, .array = "P", .range = {0, 1}, .view = {}, .frame = data, .width = 100, .most_height = 100}), 0.5, 0.5);
+    const auto seen = pixel(draw_field({.surface = data,
+                                        .array = "P",
+                                        .range = {0, 1},
+                                        .view = {},
+                                        .frame = data,
+                                        .width = 100,
+                                        .most_height = 100}),
+                            0.5, 0.5);
     EXPECT_EQ(seen[0], seen[1]);
     EXPECT_EQ(seen[1], seen[2]);
 }
@@ -68,7 +86,8 @@ TEST(Picture, TheScaleGetsLighterAllAlong) {
     double before = -1;
     for (int k = 0; k <= 64; ++k) {
         const auto c = colour_of(k / 64.0);
-        const double lightness = 0.2126 * linear(c[0] / 255.0) + 0.7152 * linear(c[1] / 255.0) + 0.0722 * linear(c[2] / 255.0);
+        const double lightness =
+            0.2126 * linear(c[0] / 255.0) + 0.7152 * linear(c[1] / 255.0) + 0.0722 * linear(c[2] / 255.0);
         EXPECT_GT(lightness, before) << k;
         before = lightness;
     }

@@ -13,7 +13,8 @@ using Json = nlohmann::ordered_json;
 /// Two lines that part at 20 mm: the flow there is 3, then 1 to the first outlet and 2 to the second. Pressure falls by `slope` Pa per mm
 /// on the second line and not at all on the first.
 CsvTable pullback(double slope) {
-    CsvTable table{{"arc_m", "outlet", "flow_m3_per_s", "pressure_pa", "mean_velocity_m_per_s", "ffr"}, std::vector<std::vector<double>>(6)};
+    CsvTable table{{"arc_m", "outlet", "flow_m3_per_s", "pressure_pa", "mean_velocity_m_per_s", "ffr"},
+                   std::vector<std::vector<double>>(6)};
     for (const double outlet : {1.0, 2.0})
         for (int mm = 0; mm <= 60; mm += 2) {
             const double p = outlet == 2 ? 1000 - slope * mm : 1000;
@@ -24,9 +25,17 @@ CsvTable pullback(double slope) {
 }
 
 Json before() {
-    return {{"lesions", {{{"branch", "b"}, {"throat_arc_mm", 31.0}, {"length_mm", 8.0}, {"read_arc_mm", 50.0}, {"flow_m3_per_s", 2e-6}}}}};
+    return {{"lesions",
+             {{{"branch", "b"},
+               {"throat_arc_mm", 31.0},
+               {"length_mm", 8.0},
+               {"read_arc_mm", 50.0},
+               {"flow_m3_per_s", 2e-6}}}}};
 }
-const Json after = {{"openings", {{"inlet", {{"mean_pressure_pa", 1000.0}}}, {"outlet_1", {{"mean_pressure_pa", 900.0}}}, {"outlet_2", {{"mean_pressure_pa", 400.0}}}}}};
+const Json after = {{"openings",
+                     {{"inlet", {{"mean_pressure_pa", 1000.0}}},
+                      {"outlet_1", {{"mean_pressure_pa", 900.0}}},
+                      {"outlet_2", {{"mean_pressure_pa", 400.0}}}}}};
 
 TEST(SamePlaces, TheLineIsTheOneWithTheLesionsFlow) {
     EXPECT_EQ(outlet_through(pullback(10), before()["lesions"][0]), 2);

@@ -27,7 +27,12 @@ Json flow(double ffr, double inflow) {
 }
 
 SweepRow row(const std::string& name, const std::vector<std::string>& values, const Json& summary) {
-    return {.name = name, .values = values, .exit_code = 0, .reason = {}, .made_from = std::make_shared<const Json>(Json{{"deck", name}}), .summary = std::make_shared<const Json>(summary)};
+    return {.name = name,
+            .values = values,
+            .exit_code = 0,
+            .reason = {},
+            .made_from = std::make_shared<const Json>(Json{{"deck", name}}),
+            .summary = std::make_shared<const Json>(summary)};
 }
 
 /// Two values each of two keys; one of the four failed, one has not run.
@@ -35,7 +40,8 @@ Sweep sweep() {
     Sweep s{.name = "<tube>", .command = "flow", .keys = {"blood.viscosity", "wall.law"}, .rows = {}};
     s.rows.push_back(row("a", {"3 mPa s", "x, \"y\""}, flow(0.8, 1e-6)));
     s.rows.push_back(row("b", {"4 cP", "x, \"y\""}, flow(0.7, 0.5e-6)));
-    s.rows.push_back({.name = "c", .values = {"0.003 Pa s", "z"}, .exit_code = 5, .reason = "diverged, \"here\"\nand there"});
+    s.rows.push_back(
+        {.name = "c", .values = {"0.003 Pa s", "z"}, .exit_code = 5, .reason = "diverged, \"here\"\nand there"});
     s.rows.push_back({.name = "d", .values = {"0.004 Pa s", "z"}});
     return s;
 }
@@ -88,7 +94,9 @@ TEST(SweepScale, TakesNoLengthForATime) {
 
 TEST(SweepCsv, HasEveryNumberAndQuotesWhatNeedsIt) {
     const std::string csv = sweep_csv(sweep());
-    EXPECT_EQ(csv.substr(0, csv.find('\n')), "run,blood.viscosity,wall.law,exit_code,reason,ffr,drop_pa,inlet_flow_m3_per_s,openings.inlet.flow_m3_per_s,ffr.lesion");
+    EXPECT_EQ(csv.substr(0, csv.find('\n')),
+              "run,blood.viscosity,wall.law,exit_code,reason,ffr,drop_pa,inlet_flow_m3_per_s,openings.inlet.flow_m3_"
+              "per_s,ffr.lesion");
     EXPECT_NE(csv.find("a,3 mPa s,\"x, \"\"y\"\"\",0,,0.8,100,-1e-06,-1e-06,0.8\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find("c,0.003 Pa s,z,5,\"diverged, \"\"here\"\"\nand there\",,,,,\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find("d,0.004 Pa s,z,,,,,,,\n"), std::string::npos) << csv;
@@ -108,12 +116,14 @@ TEST(SweepPage, ShowsEveryRunAndCannotBeGivenMarkup) {
     EXPECT_EQ(page.find("<script"), std::string::npos);
     EXPECT_NE(page.find("<a href=\"a/report.html\">a</a>"), std::string::npos);
     EXPECT_EQ(page.find("<a href=\"c/report.html\">"), std::string::npos);   // it has none
-    for (const char* name : {"a", "b", "c", "d"}) EXPECT_NE(page.find(fmt::format("<tr data-run=\"{}\">", name)), std::string::npos) << name;
+    for (const char* name : {"a", "b", "c", "d"})
+        EXPECT_NE(page.find(fmt::format("<tr data-run=\"{}\">", name)), std::string::npos) << name;
 }
 
 TEST(SweepPage, PlotsOverTheFirstKeyWithNumbersOneCurveForEachOther) {
     Sweep s = sweep();
-    s.rows[2] = row("c", {"0.003 Pa s", "z"}, flow(0.6, 1e-6)), s.rows[3] = row("d", {"0.004 Pa s", "z"}, flow(0.5, 1e-6));
+    s.rows[2] = row("c", {"0.003 Pa s", "z"}, flow(0.6, 1e-6)),
+    s.rows[3] = row("d", {"0.004 Pa s", "z"}, flow(0.5, 1e-6));
     const std::string page = sweep_page(s, "1");
     EXPECT_NE(page.find("FFR over blood.viscosity, mPa s"), std::string::npos);
     const std::regex curve("<path class=\"curve series-[01]\"");
@@ -127,7 +137,9 @@ TEST(SweepRecord, IsReadAsItWasWritten) {
     const ScratchFolder folder;
     const Sweep s = sweep();
     for (const SweepRow& r : s.rows)
-        if (r.summary) std::filesystem::create_directories(folder / r.name), write_summary(folder / r.name / "summary.json", *r.summary);
+        if (r.summary)
+            std::filesystem::create_directories(folder / r.name),
+                write_summary(folder / r.name / "summary.json", *r.summary);
     EXPECT_FALSE(is_sweep(folder / "."));
     write_sweep(folder / ".", s, "1");
     ASSERT_TRUE(is_sweep(folder / "."));
@@ -145,7 +157,10 @@ TEST(SweepRecord, IsReadAsItWasWritten) {
 
 TEST(SweepRecord, ThatIsDamagedIsAFileError) {
     const ScratchFolder folder;
-    for (const char* text : {"{}", "[1]", R"({"name": "a", "command": "run", "keys": ["k"], "runs": [{"name": "a", "values": [], "reason": "", "exit_code": 0, "made_from": null}]})"}) {
+    for (
+        const char* text :
+        {"{}", "[1]",
+         R"({"name": "a", "command": "run", "keys": ["k"], "runs": [{"name": "a", "values": [], "reason": "", "exit_code": 0, "made_from": null}]})"}) {
         std::ofstream(folder / "sweep.json") << text;
         EXPECT_THROW(read_sweep(folder / "."), FileError) << text;
     }

@@ -64,7 +64,8 @@ CellSolution solve(CellBalance& balance, const CellMesh& mesh, CellSolverSetting
 class UniformStream : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(InSpaceAndInASlab, UniformStream, testing::Bool());
 TEST_P(UniformStream, isKept) {
-    const Lumen box = make_box({.size = {1e-2, 6e-3, 5e-3}, .sides = {Side::open, Side::wall, Side::wall}, .planar = GetParam()});
+    const Lumen box =
+        make_box({.size = {1e-2, 6e-3, 5e-3}, .sides = {Side::open, Side::wall, Side::wall}, .planar = GetParam()});
     const CellMesh mesh = mesh_of(box, 8e-4, 0.3);
     const Vec3 stream{0.3, 0, 0};
     CellFluid slippery = blood;
@@ -89,13 +90,19 @@ std::vector<CellVector> lack_in_a_slab(bool upside_down) {
     const auto turned = [&](const Vec3& x) { return upside_down ? Vec3{x.x, gap - x.y, x.z} : x; };
     for (Vec3& x : set.point) x = turned(x);
     const CellMesh mesh = make_cell_mesh(set.point, set.spacing, channel);
-    const CellEnd inlet{.kind = CellEnd::Kind::velocity, .velocity = [&](const Vec3& x) { return Vec3{6 * speed * x.y * (gap - x.y) / (gap * gap), 0, 0}; }, .flow = -speed * gap};
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity,
+                        .velocity =
+                            [&](const Vec3& x) {
+                                return Vec3{6 * speed * x.y * (gap - x.y) / (gap * gap), 0, 0};
+                            },
+                        .flow = -speed * gap};
     CellBalance balance(mesh, blood, std::vector{inlet, CellEnd{}}, speed);
     CellFields fields = still(mesh);
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         const Vec3 x = turned(mesh.point[i]);
         fields.pressure[i] = 3 * std::sin(900 * x.x + 500 * x.y);
-        fields.velocity[i] = speed * Vec3{std::cos(700 * x.y), (upside_down ? -1 : 1) * std::sin(600 * x.x + 300 * x.y), 0};
+        fields.velocity[i] =
+            speed * Vec3{std::cos(700 * x.y), (upside_down ? -1 : 1) * std::sin(600 * x.x + 300 * x.y), 0};
     }
     balance.set_fields(fields);
     balance.compute_residual(0.5);
@@ -116,7 +123,8 @@ TEST(CellBalance, staysInThePlaneOfASlab) {
 TEST(CellBalance, ofASlabUpsideDownIsUpsideDown) {
     const auto lack = lack_in_a_slab(false), mirrored = lack_in_a_slab(true);
     float volume = 0, momentum = 0;
-    for (const CellVector& r : lack) volume = std::max(volume, std::abs(r[0])), momentum = std::max(momentum, std::abs(r[1]));
+    for (const CellVector& r : lack)
+        volume = std::max(volume, std::abs(r[0])), momentum = std::max(momentum, std::abs(r[1]));
     for (std::size_t i = 0; i < lack.size(); ++i) {
         ASSERT_NEAR(lack[i][0], mirrored[i][0], 1e-6f * volume) << "to the single precision of the right side";
         ASSERT_NEAR(lack[i][1], mirrored[i][1], 1e-6f * momentum);
@@ -228,7 +236,8 @@ TEST(CellSolver, carriesALevelOfAllPressuresAlong) {
     // Both start from the level at which what is prescribed to enter passes the resistance.
     const double risen = 1e7 * pipe.flow();
     ASSERT_GT(risen, 1);
-    EXPECT_NEAR(low.fields().pressure.front(), risen, 2e-6 * risen);   // a millionth of the largest resistance is added to each
+    EXPECT_NEAR(low.fields().pressure.front(), risen,
+                2e-6 * risen);   // a millionth of the largest resistance is added to each
     EXPECT_NEAR(high.fields().pressure.front(), 13332 + risen, 2e-6 * risen);
     solve(low, pipe.mesh), solve(high, pipe.mesh);
     const CellFields a = low.fields(), b = high.fields();
@@ -343,7 +352,8 @@ TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
     };
     // One seed tells nothing. With steps that are never shorter 11 and 9 of 20 come back, without a way to the best 20 and 16.
     int from_noise = 0, from_more = 0;
-    for (std::uint32_t seed = 1; seed <= 20; ++seed) from_noise += finds_back(1, seed), from_more += finds_back(10, seed);
+    for (std::uint32_t seed = 1; seed <= 20; ++seed)
+        from_noise += finds_back(1, seed), from_more += finds_back(10, seed);
     EXPECT_EQ(from_noise, 20);
     EXPECT_GE(from_more, 18);
 }
@@ -364,7 +374,12 @@ TEST(CellSolver, startsWithTheOpeningsOfACoarserFlow) {
     const double gap = 2e-3, speed = 0.05;
     const Lumen channel = make_channel({.length = 4e-3, .gap = gap});
     const CellMesh few = mesh_of(channel, gap / 8, 0), many = mesh_of(channel, gap / 14, 0);
-    const CellEnd inlet{.kind = CellEnd::Kind::velocity, .velocity = [&](const Vec3& x) { return Vec3{6 * speed * x.y * (gap - x.y) / (gap * gap), 0, 0}; }, .flow = -speed * gap};
+    const CellEnd inlet{.kind = CellEnd::Kind::velocity,
+                        .velocity =
+                            [&](const Vec3& x) {
+                                return Vec3{6 * speed * x.y * (gap - x.y) / (gap * gap), 0, 0};
+                            },
+                        .flow = -speed * gap};
     const std::vector<CellEnd> ends{inlet, {.kind = CellEnd::Kind::pressure, .pressure = 5, .resistance = 2e5}};
     CellBalance rough(few, blood, ends, speed), fine(many, blood, ends, 2 * speed);
     solve(rough, few);
@@ -385,7 +400,8 @@ TEST(CellSolver, startsNearerFromACoarserFlow) {
     CellBalance from_rest = fine.balance(), from_coarse = fine.balance();
     from_coarse.set_fields(rough.fields_at(fine.mesh.point));
     from_rest.compute_residual(0.5), from_coarse.compute_residual(0.5);
-    const auto slow = solve(from_rest, fine.mesh), quick = solve(from_coarse, fine.mesh, {.starts_sharp = true, .first_courant = 20});
+    const auto slow = solve(from_rest, fine.mesh),
+               quick = solve(from_coarse, fine.mesh, {.starts_sharp = true, .first_courant = 20});
     EXPECT_TRUE(quick.is_converged && !quick.is_damped);
     EXPECT_LT(quick.linear_steps, 0.9 * slow.linear_steps);
 }
@@ -406,9 +422,7 @@ int linear_steps(const Pipe& pipe) {
 }
 
 // Sums of entries alone are too stiff on coarser levels, and the more of them there are the more steps it would take. THEORY.md (18.13)
-TEST(CellMatrix, needsHardlyMoreStepsForManyCells) {
-    EXPECT_LE(linear_steps(Pipe(24)), linear_steps(Pipe(8)) + 1);
-}
+TEST(CellMatrix, needsHardlyMoreStepsForManyCells) { EXPECT_LE(linear_steps(Pipe(24)), linear_steps(Pipe(8)) + 1); }
 
 TEST(CellKrylov, solvesWhatItIsGiven) {
     // A lower triangle with a diagonal that grows, preconditioned by the diagonal.

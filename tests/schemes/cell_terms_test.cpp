@@ -12,8 +12,10 @@ const Vec3 area{0.02, 0.01, -0.005}, from_left{0.1, 0.03, -0.02}, from_right{-0.
 
 TEST(CellTerms, leaveOneCellAndEnterTheOther) {
     for (const bool is_newtonian : {true, false}) {
-        const Flux there = through_face({area, norm(area), 0.1, from_left, from_right}, left, right, sharp, is_newtonian);
-        const Flux back = through_face({-area, norm(area), 0.1, from_right, from_left}, right, left, sharp, is_newtonian);
+        const Flux there =
+            through_face({area, norm(area), 0.1, from_left, from_right}, left, right, sharp, is_newtonian);
+        const Flux back =
+            through_face({-area, norm(area), 0.1, from_right, from_left}, right, left, sharp, is_newtonian);
         EXPECT_DOUBLE_EQ(there.volume, -back.volume);
         EXPECT_LT(norm(there.momentum + back.momentum), 1e-15);
         EXPECT_NE(there.volume, 0);
@@ -32,7 +34,8 @@ TEST(CellTerms, carryALinearFieldExactly) {
     const CellState there = state_at(c);
     EXPECT_NEAR(flux.volume, dot(area, there.u), 1e-15);
     const Vec3 normal = (1 / norm(area)) * area;
-    const Vec3 expected = flux.volume * there.u + carried_by_spread(norm(area), normal, there.grad_u, sharp.second_moment) + there.p * area -
+    const Vec3 expected = flux.volume * there.u +
+                          carried_by_spread(norm(area), normal, there.grad_u, sharp.second_moment) + there.p * area -
                           0.02 * 0.1 * (there.grad_u * (b - a));
     EXPECT_LT(norm(flux.momentum - expected), 1e-15);
 }
@@ -47,7 +50,8 @@ TEST(CellTerms, carryTheSpreadOfAShear) {
     EXPECT_NEAR(spread.x / (side * side * tilt * tilt * second_moment), 1, 0.05);
     EXPECT_NEAR(spread.y / (side * side * tilt * rate * second_moment), 1, 0.05);
     EXPECT_EQ(spread.z, 0);
-    EXPECT_EQ(norm(carried_by_spread(1, Vec3{0, 1, 0}, g, sharp.second_moment)), 0);   // along n itself there is no spread
+    EXPECT_EQ(norm(carried_by_spread(1, Vec3{0, 1, 0}, g, sharp.second_moment)),
+              0);   // along n itself there is no spread
 }
 
 // u = s (alpha + beta s) over a plane wall: value and slope at s give alpha.

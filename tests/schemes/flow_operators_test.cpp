@@ -43,23 +43,25 @@ struct Operators : testing::TestWithParam<Variant> {
 
 std::string name_of(const testing::TestParamInfo<Variant>& info) {
     const Variant& v = info.param;
-    return std::string(v.precision == Precision::mixed ? "Mixed" : "Double") + (v.planar ? "Plane" : "Space") + (v.disorder > 0 ? "Disordered" : "Lattice");
+    return std::string(v.precision == Precision::mixed ? "Mixed" : "Double") + (v.planar ? "Plane" : "Space") +
+           (v.disorder > 0 ? "Disordered" : "Lattice");
 }
 
 constexpr double disorder = 0.2;
 using enum Precision;
 INSTANTIATE_TEST_SUITE_P(Flow, Operators,
-                         testing::Values(Variant{mixed, true, 0}, Variant{mixed, true, disorder}, Variant{mixed, false, 0},
-                                         Variant{mixed, false, disorder}, Variant{double_precision, true, 0},
-                                         Variant{double_precision, true, disorder}, Variant{double_precision, false, 0},
+                         testing::Values(Variant{mixed, true, 0}, Variant{mixed, true, disorder},
+                                         Variant{mixed, false, 0}, Variant{mixed, false, disorder},
+                                         Variant{double_precision, true, 0}, Variant{double_precision, true, disorder},
+                                         Variant{double_precision, false, 0},
                                          Variant{double_precision, false, disorder}),
                          name_of);
 
 // The Laplacian of a quadratic is promised on lattices: elsewhere the gradient has an error of its own.
 struct LatticeOperators : Operators {};
 INSTANTIATE_TEST_SUITE_P(Flow, LatticeOperators,
-                         testing::Values(Variant{mixed, true, 0}, Variant{mixed, false, 0}, Variant{double_precision, true, 0},
-                                         Variant{double_precision, false, 0}),
+                         testing::Values(Variant{mixed, true, 0}, Variant{mixed, false, 0},
+                                         Variant{double_precision, true, 0}, Variant{double_precision, false, 0}),
                          name_of);
 
 TEST_P(Operators, GradientOfALinearPressureIsExact) {
@@ -68,7 +70,8 @@ TEST_P(Operators, GradientOfALinearPressureIsExact) {
     compute();
     // At the border a particle sees half of its neighbours or less, and the matrix is worse conditioned, by 10 or so.
     for (std::size_t i = 0; i < flow.fluid.size(); ++i)
-        EXPECT_LE(norm(flow.fluid.pressure_gradient[i] - exact) / norm(exact), (is_border(flow.fluid.position[i], 3) ? 10 : 1) * tolerance());
+        EXPECT_LE(norm(flow.fluid.pressure_gradient[i] - exact) / norm(exact),
+                  (is_border(flow.fluid.position[i], 3) ? 10 : 1) * tolerance());
 }
 
 TEST_P(Operators, GradientAndDivergenceOfALinearVelocityAreExact) {
@@ -87,34 +90,41 @@ TEST_P(Operators, GradientAndDivergenceOfALinearVelocityAreExact) {
 }
 
 TEST_P(Operators, ViscosityLeavesLinearVelocitiesAlone) {
-    const Mat3 gradient = planar() ? Mat3{{70, -30, 0}, {40, 50, 0}, {0, 0, 0}} : Mat3{{70, -30, 20}, {40, 50, -60}, {-20, 80, 90}};
+    const Mat3 gradient =
+        planar() ? Mat3{{70, -30, 0}, {40, 50, 0}, {0, 0, 0}} : Mat3{{70, -30, 20}, {40, 50, -60}, {-20, 80, 90}};
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) flow.fluid.velocity[i] = gradient * flow.fluid.position[i];
     compute();
     // Against what a change of the velocity of 100/s within a spacing would make.
     const double size = flow.blood.kinematic_viscosity() * 100 / dp;
     for (std::size_t i = 0; i < flow.fluid.size(); ++i)
-        EXPECT_LE(norm(flow.fluid.slow_acceleration[i]) / size, (is_border(flow.fluid.position[i], 3) ? 10 : 1) * tolerance());
+        EXPECT_LE(norm(flow.fluid.slow_acceleration[i]) / size,
+                  (is_border(flow.fluid.position[i], 3) ? 10 : 1) * tolerance());
 }
 
 // A viscosity that grows along x shears off momentum from a linear velocity too: div (2 mu D) = (L + L^T) grad mu, exact to first
 // order in grad mu.                                                                               THEORY.md (3.7)
 TEST_P(Operators, ViscosityThatVariesBringsItsWholeStress) {
-    const Mat3 l = planar() ? Mat3{{70, -30, 0}, {40, -70, 0}, {0, 0, 0}} : Mat3{{70, -30, 20}, {40, 50, -60}, {-20, 80, -120}};
-    const auto worst_error = [&](double share) {   // of the stress; share: of mu, by which it changes over a third of the block
-        const Vec3 slope = share * Vec3{0.8, -0.6, planar() ? 0 : 0.4} / (6 * dp);
-        flow.blood.viscosity_at = [mu = flow.blood.viscosity](double) { return mu; };   // for the next step, which is not taken
-        for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
-            const Vec3& x = flow.fluid.position[i];
-            flow.fluid.velocity[i] = l * x, flow.fluid.viscosity[i] = flow.blood.viscosity * (1 + dot(slope, x));
-            flow.fluid.velocity_gradient[i] = {};
-        }
-        compute();
-        const Vec3 exact = flow.blood.kinematic_viscosity() * (l * slope + transpose(l) * slope);
-        double worst = 0;
-        for (std::size_t i = 0; i < flow.fluid.size(); ++i)
-            if (!is_border(flow.fluid.position[i], 3)) worst = std::max(worst, norm(flow.fluid.slow_acceleration[i] - exact) / norm(exact));
-        return worst;
-    };
+    const Mat3 l =
+        planar() ? Mat3{{70, -30, 0}, {40, -70, 0}, {0, 0, 0}} : Mat3{{70, -30, 20}, {40, 50, -60}, {-20, 80, -120}};
+    const auto worst_error =
+        [&](double share) {   // of the stress; share: of mu, by which it changes over a third of the block
+            const Vec3 slope = share * Vec3{0.8, -0.6, planar() ? 0 : 0.4} / (6 * dp);
+            flow.blood.viscosity_at = [mu = flow.blood.viscosity](double) {
+                return mu;
+            };   // for the next step, which is not taken
+            for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
+                const Vec3& x = flow.fluid.position[i];
+                flow.fluid.velocity[i] = l * x, flow.fluid.viscosity[i] = flow.blood.viscosity * (1 + dot(slope, x));
+                flow.fluid.velocity_gradient[i] = {};
+            }
+            compute();
+            const Vec3 exact = flow.blood.kinematic_viscosity() * (l * slope + transpose(l) * slope);
+            double worst = 0;
+            for (std::size_t i = 0; i < flow.fluid.size(); ++i)
+                if (!is_border(flow.fluid.position[i], 3))
+                    worst = std::max(worst, norm(flow.fluid.slow_acceleration[i] - exact) / norm(exact));
+            return worst;
+        };
     const double steep = worst_error(0.5);
     EXPECT_LE(steep, 0.02);
     if (GetParam().precision == double_precision) {
@@ -127,8 +137,9 @@ TEST_P(LatticeOperators, LaplacianOfAQuadraticVelocityIsExact) {
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
         const Vec3 q = flow.fluid.position[i] / half;
         const double z = planar() ? 0 : 1;
-        flow.fluid.velocity[i] = {0.6 * q.x * q.x + 0.3 * q.y * q.y + 0.4 * z * q.z * q.z + 0.4 * q.x * q.y - 0.4 * q.y * q.z + q.x,
-                                  0.5 * q.x * q.y - 0.2 * q.y * q.y + 0.2 * q.x * q.z, z * (q.x * q.z - 0.3 * q.z * q.z)};
+        flow.fluid.velocity[i] = {
+            0.6 * q.x * q.x + 0.3 * q.y * q.y + 0.4 * z * q.z * q.z + 0.4 * q.x * q.y - 0.4 * q.y * q.z + q.x,
+            0.5 * q.x * q.y - 0.2 * q.y * q.y + 0.2 * q.x * q.z, z * (q.x * q.z - 0.3 * q.z * q.z)};
     }
     compute();
     const double nu = flow.blood.kinematic_viscosity();
@@ -145,14 +156,17 @@ TEST_P(LatticeOperators, LaplacianOfAQuadraticVelocityIsExact) {
 /// A quadratic velocity's gradient; steps sort particles, so it is asked by place.
 Mat3 quadratic_gradient(const Vec3& x, double half) {
     const Vec3 q = x / half;
-    return (1 / half) * Mat3{{1.2 * q.x + 0.4 * q.y, 0.6 * q.y + 0.4 * q.x, 0}, {0.5 * q.y, 0.5 * q.x - 0.4 * q.y, 0}, {0.6 * q.x, 0, 0}};
+    return (1 / half) * Mat3{{1.2 * q.x + 0.4 * q.y, 0.6 * q.y + 0.4 * q.x, 0},
+                             {0.5 * q.y, 0.5 * q.x - 0.4 * q.y, 0},
+                             {0.6 * q.x, 0, 0}};
 }
 
 /// Sets velocities to a quadratic function of place, and the gradients to its own.
 void set_quadratic(SmallFlow& flow, double half) {
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
         const Vec3 q = flow.fluid.position[i] / half;
-        flow.fluid.velocity[i] = {0.6 * q.x * q.x + 0.3 * q.y * q.y + 0.4 * q.x * q.y, 0.5 * q.x * q.y - 0.2 * q.y * q.y, 0.3 * q.x * q.x};
+        flow.fluid.velocity[i] = {0.6 * q.x * q.x + 0.3 * q.y * q.y + 0.4 * q.x * q.y,
+                                  0.5 * q.x * q.y - 0.2 * q.y * q.y, 0.3 * q.x * q.x};
         flow.fluid.velocity_gradient[i] = quadratic_gradient(flow.fluid.position[i], half);
     }
 }
@@ -180,7 +194,8 @@ TEST_P(Operators, GradientsOfAQuadraticVelocityAreFoundStepByStep) {
     const auto worst = [&] {
         double most = 0;
         for (std::size_t i = 0; i < flow.fluid.size(); ++i)
-            most = std::max(most, half * size_of(flow.fluid.velocity_gradient[i] - quadratic_gradient(flow.fluid.position[i], half)));
+            most = std::max(most, half * size_of(flow.fluid.velocity_gradient[i] -
+                                                 quadratic_gradient(flow.fluid.position[i], half)));
         return most;
     };
     scheme->step(0, 1e-15);
@@ -190,12 +205,13 @@ TEST_P(Operators, GradientsOfAQuadraticVelocityAreFoundStepByStep) {
     EXPECT_LE(worst(), std::max(0.02 * first, 10 * tolerance())) << first;
 }
 
-TEST_P(Operators, DissipationLeavesQuadraticVelocitiesAlone) {                                  // THEORY.md (4.9)
-    remove_viscosity();   // nothing but the dissipation is left
+TEST_P(Operators, DissipationLeavesQuadraticVelocitiesAlone) {   // THEORY.md (4.9)
+    remove_viscosity();                                          // nothing but the dissipation is left
     set_quadratic(flow, 6 * dp);
     compute();
     // Against what it would take from a speed of 1 m/s that changes from particle to particle.
-    for (std::size_t i = 0; i < flow.fluid.size(); ++i) EXPECT_LE(norm(flow.fluid.slow_acceleration[i]) * dp, 3 * tolerance());
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i)
+        EXPECT_LE(norm(flow.fluid.slow_acceleration[i]) * dp, 3 * tolerance());
 }
 
 TEST_P(Operators, DissipationTakesTheEnergyOfNoise) {
@@ -217,7 +233,8 @@ TEST_P(Operators, DissipationTakesTheEnergyOfNoise) {
         }
         // Noise has no mean among the neighbours, so its rate is U times the sum of V |W'|: 8 pi int W r dr = 2.5/h in space, 2.8/h
         // in the plane for a whole neighbourhood; half of the block is border.
-        const double h = flow.numerics.smoothing_ratio * dp, fastest = speed > 0 ? speed : 0.01 * flow.blood.sound_speed;
+        const double h = flow.numerics.smoothing_ratio * dp,
+                     fastest = speed > 0 ? speed : 0.01 * flow.blood.sound_speed;
         const double rate = -power / energy * h / (flow.numerics.velocity_dissipation * fastest);
         EXPECT_GT(rate, 1.5) << speed;
         EXPECT_LT(rate, 3.0) << speed;
@@ -245,8 +262,10 @@ TEST(OperatorsAtWalls, AShearBetweenPlatesIsExactUpToThem) {
     flow.numerics.shift = 0;
     const double gap = across * dp, shear = 200;
     for (OpenEnd& end : flow.ends) end.velocity = [=](const Vec3& x, double) { return Vec3{shear * x.y, 0, 0}; };
-    for (std::size_t i = 0; i < flow.fluid.size(); ++i) flow.fluid.velocity[i] = {shear * flow.fluid.position[i].y, 0, 0};
-    for (std::size_t i = 0; i < flow.wall.size(); ++i) flow.wall.velocity[i] = {flow.wall.position[i].y > gap / 2 ? shear * gap : 0.0, 0, 0};
+    for (std::size_t i = 0; i < flow.fluid.size(); ++i)
+        flow.fluid.velocity[i] = {shear * flow.fluid.position[i].y, 0, 0};
+    for (std::size_t i = 0; i < flow.wall.size(); ++i)
+        flow.wall.velocity[i] = {flow.wall.position[i].y > gap / 2 ? shear * gap : 0.0, 0, 0};
     flow.make(Precision::double_precision)->step(0, 1e-15);
     const double size = flow.blood.kinematic_viscosity() * shear / dp;
     int checked = 0;
@@ -277,9 +296,10 @@ double error_at_wall_of_thinning_blood(int across) {
         const double a = 4 / gap;
         return slope / mu_0 * ((gap / 2 + 1 / a) * std::log(1 + a * s) / a - s / a);
     };
-    flow.blood.viscosity = mu(gap / 2);                           // the largest
+    flow.blood.viscosity = mu(gap / 2);                          // the largest
     flow.blood.viscosity_at = [mu_0](double) { return mu_0; };   // for the next step, which is not taken
-    for (OpenEnd& end : flow.ends) end.velocity = [&](const Vec3& x, double) { return Vec3{velocity(from_wall(x.y)), 0, 0}; };
+    for (OpenEnd& end : flow.ends)
+        end.velocity = [&](const Vec3& x, double) { return Vec3{velocity(from_wall(x.y)), 0, 0}; };
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
         const double s = from_wall(flow.fluid.position[i].y);
         flow.fluid.velocity[i] = {velocity(s), 0, 0}, flow.fluid.viscosity[i] = mu(s);
@@ -302,4 +322,4 @@ TEST(OperatorsAtWalls, TheLayerAtAWallFeelsTheWholeStressOfThinningBlood) {
     EXPECT_LE(fine, 0.7 * coarse);   // without the part of grad mu it is 0.47 at any spacing
 }
 
-}  // namespace
+}   // namespace

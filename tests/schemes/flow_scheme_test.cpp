@@ -3,9 +3,9 @@
 // not seen, bits do not depend on threads or on the loop, and what goes wrong is said.
 #include "patency/schemes/flow_scheme.h"
 
-#include <cstdio>
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <cstdio>
 
 #include <array>
 #include <cmath>
@@ -69,7 +69,9 @@ void make_busy_duct(SmallFlow& flow, int along = 12) {
 
 struct BothPrecisions : testing::TestWithParam<Precision> {};
 INSTANTIATE_TEST_SUITE_P(Flow, BothPrecisions, testing::Values(Precision::mixed, Precision::double_precision),
-                         [](const testing::TestParamInfo<Precision>& v) { return v.param == Precision::mixed ? "Mixed" : "Double"; });
+                         [](const testing::TestParamInfo<Precision>& v) {
+                             return v.param == Precision::mixed ? "Mixed" : "Double";
+                         });
 
 TEST_P(BothPrecisions, BloodAtRestStaysAtRest) {
     for (const bool planar : {true, false}) {
@@ -105,7 +107,8 @@ TEST_P(BothPrecisions, ALevelOfPressureIsNotSeen) {
     for (SmallFlow* flow : {&low, &high}) {
         const double level = flow == &high ? offset : 0;
         make_channel(*flow, 12, 8, true, Kind::pressure, Kind::pressure);
-        for (std::size_t i = 0; i < flow->fluid.size(); ++i) flow->fluid.pressure[i] = level + 100 * (1 - flow->fluid.position[i].x / (12 * dp));
+        for (std::size_t i = 0; i < flow->fluid.size(); ++i)
+            flow->fluid.pressure[i] = level + 100 * (1 - flow->fluid.position[i].x / (12 * dp));
         flow->ends[0].pressure = level + 100, flow->ends[1].pressure = level;
         run(*flow, GetParam(), 20);
     }
@@ -118,7 +121,9 @@ TEST_P(BothPrecisions, ALevelOfPressureIsNotSeen) {
     for (std::size_t i = 0; i < low.fluid.size(); ++i) {
         std::size_t same = 0;
         for (std::size_t j = 1; j < high.fluid.size(); ++j)
-            if (norm(high.fluid.position[j] - low.fluid.position[i]) < norm(high.fluid.position[same] - low.fluid.position[i])) same = j;
+            if (norm(high.fluid.position[j] - low.fluid.position[i]) <
+                norm(high.fluid.position[same] - low.fluid.position[i]))
+                same = j;
         ASSERT_LE(norm(high.fluid.position[same] - low.fluid.position[i]), 0.01 * dp);
         ASSERT_LE(norm(low.fluid.velocity[i] - high.fluid.velocity[same]) / fastest(low), 100 * lost);
     }
@@ -152,7 +157,7 @@ TEST_P(BothPrecisions, APlugSlipsThrough) {
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) ASSERT_LE(norm(flow.fluid.velocity[i] - v), 1e-12);
     EXPECT_NEAR(flow.ends[0].flow, -0.2 * 8 * dp, 1e-16);
     EXPECT_NEAR(flow.ends[1].flow, 0.2 * 8 * dp, 1e-16);
-    EXPECT_LT(flow.ends[0].crossed, -40);   // layers of eight have come in,
+    EXPECT_LT(flow.ends[0].crossed, -40);                                     // layers of eight have come in,
     EXPECT_NEAR(double(flow.ends[0].crossed + flow.ends[1].crossed), 0, 8);   // and as many have gone out
 }
 
@@ -164,7 +169,8 @@ TEST_P(BothPrecisions, AVesselHoldsAsManyParticlesAfterThreeTransits) {
     make_channel(flow, along, across, true, Kind::pressure, Kind::pressure);
     flow.blood.viscosity = 0.056;
     std::fill(flow.fluid.viscosity.begin(), flow.fluid.viscosity.end(), flow.blood.viscosity);
-    const double gap = across * dp, length = along * dp, peak = 0.06, slope = 8 * flow.blood.viscosity * peak / (gap * gap);
+    const double gap = across * dp, length = along * dp, peak = 0.06,
+                 slope = 8 * flow.blood.viscosity * peak / (gap * gap);
     flow.numerics.reference_speed = peak;
     flow.ends[0].pressure = slope * length;
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
@@ -189,8 +195,10 @@ TEST_P(BothPrecisions, BitsDoNotDependOnThreads) {
         SmallFlow flow;
         make_busy_duct(flow, 150);   // 10,000 particles: sorted in parallel
         run(flow, GetParam(), 3);
-        if (threads == 1) one = state_of(flow);
-        else EXPECT_TRUE(state_of(flow) == one) << threads << " threads";
+        if (threads == 1)
+            one = state_of(flow);
+        else
+            EXPECT_TRUE(state_of(flow) == one) << threads << " threads";
     }
     omp_set_num_threads(before);
 }
@@ -226,7 +234,7 @@ TEST_P(BothPrecisions, MirroredBloodFlowsInTheMirror) {
     }
 }
 
-TEST_P(BothPrecisions, NoiseIsQuietedUpToTheLayerAtTheWall) {                                   // THEORY.md (4.9)
+TEST_P(BothPrecisions, NoiseIsQuietedUpToTheLayerAtTheWall) {   // THEORY.md (4.9)
     SmallFlow flow;
     constexpr int across = 12, along = 24;
     make_channel(flow, along, across, true, OpenEnd::Kind::pressure, OpenEnd::Kind::pressure);
@@ -310,7 +318,8 @@ TEST_P(BothPrecisions, TheParticleThatWentWrongIsNamed) {
     } catch (const DivergedError& error) {
         const std::string text = error.what();
         Vec3 named;
-        ASSERT_EQ(std::sscanf(text.c_str() + text.find('('), "(%lf, %lf, %lf)", &named.x, &named.y, &named.z), 3) << text;
+        ASSERT_EQ(std::sscanf(text.c_str() + text.find('('), "(%lf, %lf, %lf)", &named.x, &named.y, &named.z), 3)
+            << text;
         EXPECT_LT(norm(named - place), 0.3 * dp) << text;   // two shifts of a tenth at most
     }
 }
@@ -367,4 +376,4 @@ TEST_P(BothPrecisions, TheEndsAreAskedOncePerAcousticStep) {
     EXPECT_NEAR(elapsed, step.dt, 1e-14 * step.dt * double(times.size()));
 }
 
-}  // namespace
+}   // namespace

@@ -45,7 +45,8 @@ struct Scene {
     void add_wall(const Vec3& x, const Vec3& normal, double depth, const Vec3& v = {}) {
         const std::size_t i = wall.size();
         wall.resize(i + 1);
-        wall.position[i] = x, wall.normal[i] = normal, wall.depth[i] = depth, wall.velocity[i] = v, wall.volume[i] = dp * dp;
+        wall.position[i] = x, wall.normal[i] = normal, wall.depth[i] = depth, wall.velocity[i] = v,
+        wall.volume[i] = dp * dp;
     }
     std::unique_ptr<FlowScheme> scheme() {
         const FlowDomain domain{fluid, wall, ends, frame, [](const Vec3&) { return -1.0; }};
@@ -153,7 +154,8 @@ TEST(PaperScheme, momentum_is_conserved_in_a_periodic_box) {
 
 double kinetic_energy(const FluidParticles& fluid) {
     double sum = 0;
-    for (std::size_t i = 0; i < fluid.size(); ++i) sum += 0.5 * rho * fluid.volume[i] * dot(fluid.velocity[i], fluid.velocity[i]);
+    for (std::size_t i = 0; i < fluid.size(); ++i)
+        sum += 0.5 * rho * fluid.volume[i] * dot(fluid.velocity[i], fluid.velocity[i]);
     return sum;
 }
 
@@ -161,7 +163,8 @@ TEST(PaperScheme, a_wave_of_motion_dies) {
     Scene scene(periodic_frame());
     fill_periodic(scene, 0);
     const double k = 2 * 3.141592653589793 / (side * dp);
-    for (std::size_t i = 0; i < scene.fluid.size(); ++i) scene.fluid.velocity[i] = {0.02 * std::sin(k * scene.fluid.position[i].y), 0, 0};
+    for (std::size_t i = 0; i < scene.fluid.size(); ++i)
+        scene.fluid.velocity[i] = {0.02 * std::sin(k * scene.fluid.position[i].y), 0, 0};
     const double before = kinetic_energy(scene.fluid);
     const auto scheme = scene.scheme();
     double time = 0;
@@ -232,7 +235,8 @@ TEST(PaperScheme, the_slow_loop_gives_the_same_bits) {
     for (const LoopKind kind : {LoopKind::packed, LoopKind::reference}) {
         Scene scene(strip_frame(40, 8));
         fill_strip(scene, 40, 8);
-        for (std::size_t i = 0; i < scene.fluid.size(); ++i) scene.fluid.velocity[i] = {0.1 * scene.fluid.position[i].y / dp / 8, 0, 0};
+        for (std::size_t i = 0; i < scene.fluid.size(); ++i)
+            scene.fluid.velocity[i] = {0.1 * scene.fluid.position[i].y / dp / 8, 0, 0};
         scene.numerics.loop = kind;
         const auto scheme = scene.scheme();
         for (int k = 0; k < 5; ++k) scheme->step(0, 1);
@@ -265,5 +269,5 @@ TEST(PaperScheme, nonsense_is_reported) {
     EXPECT_THROW(make_paper_scheme(Precision::double_precision, domain, blood, periodic.numerics), DeckError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -29,7 +29,8 @@ std::vector<Vec3> momenta(const SolidParticles& p, double k) {
     std::vector<Vec3> momentum;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Vec3 x = p.reference[i] / spacing;
-        momentum.push_back(p.mass[i] * Vec3{std::sin(k * x.x + x.y), std::cos(k * x.y - x.z), 0.3 + std::sin(k * x.z * x.x)});
+        momentum.push_back(p.mass[i] *
+                           Vec3{std::sin(k * x.x + x.y), std::cos(k * x.y - x.z), 0.3 + std::sin(k * x.z * x.x)});
     }
     return momentum;
 }
@@ -85,7 +86,8 @@ TEST(SelectiveMass, ASwingingStrutIsHardlyHeavierAndAVibrationMuch) {
         return power(momentum, p.velocity) / own;
     };
     EXPECT_GT(share([](const Vec3& x) { return x.x - 17.5; }), 0.85);
-    EXPECT_LT(share([](const Vec3& x) { return (int(std::lround(x.x)) + int(std::lround(x.y))) % 2 ? 1.0 : -1.0; }), 1.1 / scaling);
+    EXPECT_LT(share([](const Vec3& x) { return (int(std::lround(x.x)) + int(std::lround(x.y))) % 2 ? 1.0 : -1.0; }),
+              1.1 / scaling);
 }
 
 TEST(SelectiveMass, ItsLongStepKeepsTheEnergy) {

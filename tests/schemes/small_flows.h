@@ -67,8 +67,8 @@ inline void make_block(SmallFlow& flow, int across, bool planar) {
 inline void make_periodic_block(SmallFlow& flow, int across, bool planar) {
     make_block(flow, across, planar);
     const double half = 0.5 * across * dp;
-    flow.frame = std::make_unique<Frame>(Vec3{-half, -half, planar ? -dp : -half}, Vec3{half, half, planar ? dp : half}, flow.support(),
-                                         std::array<bool, 3>{true, true, !planar});
+    flow.frame = std::make_unique<Frame>(Vec3{-half, -half, planar ? -dp : -half}, Vec3{half, half, planar ? dp : half},
+                                         flow.support(), std::array<bool, 3>{true, true, !planar});
 }
 
 inline OpenEnd make_end(double x, double normal, OpenEnd::Kind kind, double area, double reach) {
@@ -82,7 +82,8 @@ inline OpenEnd make_end(double x, double normal, OpenEnd::Kind kind, double area
 
 /// Blood between plates at y = 0 and y = across dp (planar), or in a square duct of that side (y, z from 0), `along`
 /// spacings long, with an inlet at x = 0 and an outlet. Walls stand still; velocity ends impose what the particles have.
-inline void make_channel(SmallFlow& flow, int along, int across, bool planar, OpenEnd::Kind inlet, OpenEnd::Kind outlet) {
+inline void make_channel(SmallFlow& flow, int along, int across, bool planar, OpenEnd::Kind inlet,
+                         OpenEnd::Kind outlet) {
     flow.numerics.planar = planar;
     const double gap = across * dp, length = along * dp;
     const int beyond = 4, behind = 3;   // layers past an end, and of the wall
@@ -104,21 +105,25 @@ inline void make_channel(SmallFlow& flow, int along, int across, bool planar, Op
                     if (i >= -beyond && i < along + beyond) blood.push_back(x);
                     continue;
                 }
-                const Vec3 away{0, side(x.y) * std::max(over(x.y), 0.0), planar ? 0 : side(x.z) * std::max(over(x.z), 0.0)};
+                const Vec3 away{0, side(x.y) * std::max(over(x.y), 0.0),
+                                planar ? 0 : side(x.z) * std::max(over(x.z), 0.0)};
                 bricks.push_back({x, normalized(away), norm(away)});
             }
     flow.fill(blood);
-    for (std::size_t i = 0; i < blood.size(); ++i) flow.fluid.opening[i] = blood[i].x < 0 ? 1 : blood[i].x > length ? 2 : 0;
+    for (std::size_t i = 0; i < blood.size(); ++i)
+        flow.fluid.opening[i] = blood[i].x < 0 ? 1 : blood[i].x > length ? 2 : 0;
     flow.wall.resize(bricks.size());
     for (std::size_t i = 0; i < bricks.size(); ++i) {
-        flow.wall.position[i] = bricks[i].x, flow.wall.normal[i] = bricks[i].normal, flow.wall.depth[i] = bricks[i].depth;
+        flow.wall.position[i] = bricks[i].x, flow.wall.normal[i] = bricks[i].normal,
+        flow.wall.depth[i] = bricks[i].depth;
         flow.wall.volume[i] = flow.cell();
     }
     const double area = planar ? gap : gap * gap;
     flow.ends = {make_end(0, -1, inlet, area, 2 * gap), make_end(length, 1, outlet, area, 2 * gap)};
     for (OpenEnd& end : flow.ends) end.centre.y = gap / 2, end.centre.z = planar ? 0 : gap / 2;
     const double past = 14 * dp, around = 5 * dp;
-    flow.frame = std::make_unique<Frame>(Vec3{-past, -around, -around}, Vec3{length + past, gap + around, gap + around}, flow.support());
+    flow.frame = std::make_unique<Frame>(Vec3{-past, -around, -around}, Vec3{length + past, gap + around, gap + around},
+                                         flow.support());
 }
 
-}  // namespace patency::testing_flows
+}   // namespace patency::testing_flows

@@ -46,8 +46,10 @@ inline void fill(Solid& solid, const std::vector<Vec3>& places, const SolidMater
 inline void shake(SolidParticles& p, double share, bool planar) {
     for (std::size_t i = 0; i < p.size(); ++i) {   // by place, so that it does not depend on the order
         const Vec3 q = p.reference[i] / spacing;
-        p.position[i] = p.reference[i] + share * spacing * Vec3{std::sin(3.1 * q.x + 1.7 * q.y + 0.9 * q.z), std::cos(2.3 * q.y - q.x + 1.3 * q.z),
-                                                                planar ? 0 : std::sin(1.9 * q.z + 2.7 * q.x)};
+        p.position[i] = p.reference[i] + share * spacing *
+                                             Vec3{std::sin(3.1 * q.x + 1.7 * q.y + 0.9 * q.z),
+                                                  std::cos(2.3 * q.y - q.x + 1.3 * q.z),
+                                                  planar ? 0 : std::sin(1.9 * q.z + 2.7 * q.x)};
     }
 }
 

@@ -40,8 +40,12 @@ protected:
         return n;
     }
 };
-INSTANTIATE_TEST_SUITE_P(SolidBody, Both, ::testing::Values(Kind{true, false}, Kind{false, false}, Kind{true, true}, Kind{false, true}),
-                         [](const auto& kind) { return std::string(kind.param.planar ? "plane" : "space") + (kind.param.second_order ? "_second" : "_first"); });
+INSTANTIATE_TEST_SUITE_P(SolidBody, Both,
+                         ::testing::Values(Kind{true, false}, Kind{false, false}, Kind{true, true}, Kind{false, true}),
+                         [](const auto& kind) {
+                             return std::string(kind.param.planar ? "plane" : "space") +
+                                    (kind.param.second_order ? "_second" : "_first");
+                         });
 
 }   // namespace
 
@@ -110,7 +114,8 @@ TEST_P(Both, AnyMotionKeepsBothMomenta) {
         const auto body = make_solid_body(solid, n);
         SolidParticles& p = body->particles();
         shake(p, 0.05, planar);
-        for (std::size_t i = 0; i < p.size(); ++i) p.velocity[i] = Vec3{p.position[i].y, -p.position[i].x, 0} * 100 + Vec3{std::sin(double(i)), 0, 0};
+        for (std::size_t i = 0; i < p.size(); ++i)
+            p.velocity[i] = Vec3{p.position[i].y, -p.position[i].x, 0} * 100 + Vec3{std::sin(double(i)), 0, 0};
         look(*body);
         double size = 0;
         Vec3 torque{};
@@ -126,7 +131,8 @@ TEST_P(Both, AnyMotionKeepsBothMomenta) {
 
 TEST_P(Both, ALinearDeformationIsSeenExactlyOffTheLattice) {
     const bool planar = GetParam().planar;
-    const Mat3 F = planar ? Mat3{{1.3, 0.2, 0}, {-0.1, 0.8, 0}, {0, 0, 1}} : Mat3{{1.3, 0.2, 0.1}, {-0.1, 0.8, 0.05}, {0.3, 0, 1.1}};
+    const Mat3 F = planar ? Mat3{{1.3, 0.2, 0}, {-0.1, 0.8, 0}, {0, 0, 1}}
+                          : Mat3{{1.3, 0.2, 0.1}, {-0.1, 0.8, 0.05}, {0.3, 0, 1.1}};
     for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
         Solid solid;
         fill(solid, block(7, 7, planar ? 0 : 7, 0.25), rubber(), planar);
@@ -134,7 +140,8 @@ TEST_P(Both, ALinearDeformationIsSeenExactlyOffTheLattice) {
         SolidParticles& p = body->particles();
         for (std::size_t i = 0; i < p.size(); ++i) p.position[i] = F * p.reference[i] + Vec3{1, 2, planar ? 0.0 : 3.0};
         look(*body);
-        const double tolerance = precision == Precision::mixed ? 2e-4 : 1e-11;   // 1000 spacings away: quanta of 1e-6 spacings
+        const double tolerance =
+            precision == Precision::mixed ? 2e-4 : 1e-11;   // 1000 spacings away: quanta of 1e-6 spacings
         double hourglass = body->energy().hourglass, elastic = body->energy().elastic;
         for (std::size_t i = 0; i < p.size(); ++i) {
             const Mat3 off = body->deformation(i) - F;
@@ -165,7 +172,8 @@ TEST(SolidBody, FOfSecondOrderIsRightAtASurfaceToo) {
             const Vec3& X = p.reference[i];
             const Vec3 q = X / spacing;
             if (q.x < 2.5 || q.x > 8.5 || q.z < 2.5 || q.z > 8.5) continue;
-            worst[second] = std::max(worst[second], std::abs(body->deformation(i).x.x - 1 - bend * (X.y - middle)) / (bend * spacing));
+            worst[second] = std::max(worst[second],
+                                     std::abs(body->deformation(i).x.x - 1 - bend * (X.y - middle)) / (bend * spacing));
         }
     }
     EXPECT_GT(worst[0], 0.1);
@@ -186,7 +194,8 @@ double bending_stiffness(int n, double disorder, const SolidNumerics& numbers) {
         const Vec3 middle = 0.5 * spacing * Vec3{length * (1.0 + longer) - 1, n - 1.0, n - 1.0};
         for (std::size_t i = 0; i < p.size(); ++i) {
             const Vec3 X = p.reference[i] - middle;
-            p.position[i] += bend * Vec3{X.x * X.y, -0.5 * (X.x * X.x + poisson * (X.y * X.y - X.z * X.z)), -poisson * X.y * X.z};
+            p.position[i] +=
+                bend * Vec3{X.x * X.y, -0.5 * (X.x * X.x + poisson * (X.y * X.y - X.z * X.z)), -poisson * X.y * X.z};
         }
         look(*body);
         const SolidEnergy e = body->energy();
@@ -210,7 +219,8 @@ TEST(SolidBody, AStrutOfFourBendsAsStifflyAsItShould) {   // with the numbers of
 TEST(SolidBody, LoopsThreadsAndLanesGiveTheSameBits) {
     for (const Precision precision : {Precision::double_precision, Precision::mixed}) {
         std::vector<std::vector<Vec3>> ends;
-        for (const auto& [loop, threads] : {std::pair{LoopKind::packed, 1}, std::pair{LoopKind::packed, 3}, std::pair{LoopKind::reference, 2}}) {
+        for (const auto& [loop, threads] :
+             {std::pair{LoopKind::packed, 1}, std::pair{LoopKind::packed, 3}, std::pair{LoopKind::reference, 2}}) {
             omp_set_num_threads(threads);
             Solid solid;
             fill(solid, block(20, 12, 11, 0.1), rubber(), false);
@@ -244,7 +254,9 @@ TEST(SolidBody, ForcesOfUnequalVolumesAddUpToNothing) {
         for (std::size_t i = 0; i < places.size(); ++i) solid.particles.volume[i] *= 1 + 0.1 * double(i % 4);
         const auto body = make_solid_body(solid, numerics(false, precision));
         SolidParticles& p = body->particles();
-        for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT(norm(p.position[i] - p.reference[i]), 1e-12 * spacing) << "places moved, and what they rest from did not";
+        for (std::size_t i = 0; i < p.size(); ++i)
+            EXPECT_LT(norm(p.position[i] - p.reference[i]), 1e-12 * spacing)
+                << "places moved, and what they rest from did not";
         shake(p, 0.03, false);
         look(*body);
         double size = 0;
@@ -366,7 +378,9 @@ TEST(SolidBody, AConstraintHoldsItsAxesAndCountsItsReaction) {
         time += dt;
     }
     for (std::size_t i = 0; i < p.size(); ++i)
-        EXPECT_NEAR(p.position[i].x - p.reference[i].x, p.constraint[i] ? 100 * time * time : 0, p.constraint[i] ? 1e-15 : 1) << i;
+        EXPECT_NEAR(p.position[i].x - p.reference[i].x, p.constraint[i] ? 100 * time * time : 0,
+                    p.constraint[i] ? 1e-15 : 1)
+            << i;
     EXPECT_LT(norm(momentum() - body->reaction_impulse(0)), 1e-12 * norm(momentum()));
     const SolidEnergy e = body->energy();
     EXPECT_NEAR(e.constraint_work, e.kinetic + e.elastic + e.hourglass, 0.02 * e.constraint_work);
@@ -376,10 +390,13 @@ TEST(SolidBody, WhatBendsAMetalIsAccountedForToTheLast) {
     // A strut is bent until it is a hinge. Hourglass control becomes softer as the metal flows; what it gives up is not in the
     // energy of the particles any more.
     Solid solid;
-    const J2Plastic steel{elastic_moduli({.young = 193e9, .poisson = 0.3, .shear = {}, .bulk = {}}), {.yield = 172e6, .slope = 1.5e9, .saturation = 0, .rate = 0}};
+    const J2Plastic steel{elastic_moduli({.young = 193e9, .poisson = 0.3, .shear = {}, .bulk = {}}),
+                          {.yield = 172e6, .slope = 1.5e9, .saturation = 0, .rate = 0}};
     fill(solid, block(20, 4, 4, 0), {8000, steel}, false);
     constexpr double ramp = 150e-6, way = 4 * spacing;
-    solid.constraints = {{}, {{true, true, true}, [](const Vec3&, double t) { return Vec3{0, way * std::pow(std::sin(0.5 * std::numbers::pi * t / ramp), 2), 0}; }}};
+    solid.constraints = {{}, {{true, true, true}, [](const Vec3&, double t) {
+                                  return Vec3{0, way * std::pow(std::sin(0.5 * std::numbers::pi * t / ramp), 2), 0};
+                              }}};
     for (std::size_t i = 0; i < solid.particles.size(); ++i) {
         const double x = solid.particles.reference[i].x / spacing;
         solid.particles.constraint[i] = x < 2.5 ? 1 : x > 16.5 ? 2 : 0;

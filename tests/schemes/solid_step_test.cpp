@@ -18,13 +18,15 @@ constexpr double side = 4e-3;
 std::unique_ptr<SolidPart> make_block(double from, double young, double spacing, double speed) {
     auto part = std::make_unique<SolidPart>();
     const SolidFill fill = fill_box({from, 0, 0}, {from + side, side, side}, spacing, false);
-    part->solid.materials = {{1000, NeoHookean::from(elastic_moduli({.young = young, .poisson = 0.3, .shear = {}, .bulk = {}}))}};
+    part->solid.materials = {
+        {1000, NeoHookean::from(elastic_moduli({.young = young, .poisson = 0.3, .shear = {}, .bulk = {}}))}};
     place_particles(part->solid, fill.places, fill.volumes.front());
     for (Vec3& v : part->solid.particles.velocity) v = {speed, 0, 0};
     SolidNumerics numerics;
     numerics.spacing = spacing;
     part->body = make_solid_body(part->solid, numerics);
-    part->surface = std::make_unique<SolidSurface>(fill.surface, part->solid.particles, numerics.kernel().support(), false);
+    part->surface =
+        std::make_unique<SolidSurface>(fill.surface, part->solid.particles, numerics.kernel().support(), false);
     return part;
 }
 
@@ -35,8 +37,9 @@ SolidSystem make_blocks(double stiffness_ratio, double damping = 0, double frict
     system.parts.push_back(make_block(-side - 0.1e-3, 1e6 * stiffness_ratio, 0.5e-3, 2));
     SolidParticles& p = system.parts[1]->body->particles();
     for (Vec3& x : p.position) x += Vec3{0, 0.7e-3, 0.3e-3};
-    system.contacts.push_back(make_surface_contact(*system.parts[0]->surface, *system.parts[1]->surface,
-                                                   {.friction = friction, .damping = damping, .step = stable_step(system)}));
+    system.contacts.push_back(
+        make_surface_contact(*system.parts[0]->surface, *system.parts[1]->surface,
+                             {.friction = friction, .damping = damping, .step = stable_step(system)}));
     return system;
 }
 
@@ -124,7 +127,8 @@ TEST(SolidStep, ABodyWhoseParticlesTrembleComesToRestAllTheSame) {
     system.gravity = {pull, 0, 0};
     system.is_relaxed = true;
     auto part = std::make_unique<SolidPart>();
-    part->solid.materials = {{density, NeoHookean::from(elastic_moduli({.young = young, .poisson = 0, .shear = {}, .bulk = {}}))}};
+    part->solid.materials = {
+        {density, NeoHookean::from(elastic_moduli({.young = young, .poisson = 0, .shear = {}, .bulk = {}}))}};
     place_particles(part->solid, fill.places, fill.volumes.front());
     part->solid.constraints.push_back({});
     for (std::size_t i = 0; i < fill.places.size(); ++i)
@@ -137,7 +141,10 @@ TEST(SolidStep, ABodyWhoseParticlesTrembleComesToRestAllTheSame) {
     const double dt = choose_strides(system), quiver = 1e-4 * sag / dt;
     for (int k = 0; k < 1500; ++k) {
         for (std::size_t i = 0; i < p.size(); ++i)
-            if (p.constraint[i] == 0) p.velocity[i] += (k % 2 == 0 ? 1 : -1) * (std::lround(p.reference[i].x / 1e-3 - 0.5) % 2 == 0 ? quiver : -quiver) * Vec3{1, 0, 0};
+            if (p.constraint[i] == 0)
+                p.velocity[i] += (k % 2 == 0 ? 1 : -1) *
+                                 (std::lround(p.reference[i].x / 1e-3 - 0.5) % 2 == 0 ? quiver : -quiver) *
+                                 Vec3{1, 0, 0};
         solid_step(system, k * dt, dt);
     }
     double lowest = 0;

@@ -77,7 +77,8 @@ TEST(Frame, PeriodicPlacesComeBackIntoTheBox) {
     EXPECT_EQ(frame.wrapped({0, -1e-20, 0}).y, 0);   // -1e-20 + 2 is 2, the upper face
     // Across a periodic face the integers differ by little.
     const auto low = frame.fixed({-1, 1, 0}), high = frame.fixed({1 - 1e-6, 1, 0});
-    EXPECT_NEAR(std::int32_t(std::uint32_t(low[0]) - std::uint32_t(high[0])) * frame.quantum(), 1e-6, 2 * frame.quantum());
+    EXPECT_NEAR(std::int32_t(std::uint32_t(low[0]) - std::uint32_t(high[0])) * frame.quantum(), 1e-6,
+                2 * frame.quantum());
 }
 
 TEST(Frame, RefusesWhatItsIntegersCannotHold) {
@@ -161,4 +162,4 @@ TEST(CellOrder, KeepsNeighboursNear) {
     EXPECT_LT(mean / chunks, 2 + 2 + 4 + 40 * 0.1);
 }
 
-}  // namespace
+}   // namespace

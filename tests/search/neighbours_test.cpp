@@ -57,7 +57,8 @@ void expect_complete(const std::vector<std::vector<std::uint32_t>>& rows, const 
 
 void expect_rising(const std::vector<std::vector<std::uint32_t>>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i)
-        EXPECT_EQ(std::adjacent_find(rows[i].begin(), rows[i].end(), std::greater_equal<>()), rows[i].end()) << "row " << i;
+        EXPECT_EQ(std::adjacent_find(rows[i].begin(), rows[i].end(), std::greater_equal<>()), rows[i].end())
+            << "row " << i;
 }
 
 struct Arrangement {
@@ -82,7 +83,8 @@ std::vector<Arrangement> arrangements() {
         return std::pair(random_points(box, n, 11), random_points(box, m, 12));
     };
     std::vector<Arrangement> list;
-    const auto add = [&](std::string name, const Box& box, std::array<bool, 3> periodic, std::vector<Vec3> own, std::vector<Vec3> other) {
+    const auto add = [&](std::string name, const Box& box, std::array<bool, 3> periodic, std::vector<Vec3> own,
+                         std::vector<Vec3> other) {
         list.push_back({std::move(name), box, periodic, std::move(own), std::move(other)});
     };
     const auto add_random = [&](std::string name, const Box& box, std::array<bool, 3> periodic, std::size_t n) {
@@ -100,8 +102,10 @@ std::vector<Arrangement> arrangements() {
     add_random("a plane, periodic", flat, {true, true, false}, 400);
     add_random("the least periodic box", {{0, 0, 0}, {7.81, 7.81, 7.81}}, {true, true, true}, 600);
     add("a lattice on the faces of the cells", cube, {}, lattice(cube, 0.5 * 2.3), lattice(cube, 1));
-    add("a periodic lattice", cube, {true, true, true}, lattice({{0, 0, 0}, {8.9, 8.9, 8.9}}, 1), lattice({{0, 0, 0}, {8.9, 8.9, 8.9}}, 1.5));
-    add("pairs at exactly the reach", {{0, 0, 0}, {30, 30, 30}}, {}, lattice({{0, 0, 0}, {15, 8, 8}}, reach), lattice({{0, 0, 0}, {15, 8, 8}}, reach));
+    add("a periodic lattice", cube, {true, true, true}, lattice({{0, 0, 0}, {8.9, 8.9, 8.9}}, 1),
+        lattice({{0, 0, 0}, {8.9, 8.9, 8.9}}, 1.5));
+    add("pairs at exactly the reach", {{0, 0, 0}, {30, 30, 30}}, {}, lattice({{0, 0, 0}, {15, 8, 8}}, reach),
+        lattice({{0, 0, 0}, {15, 8, 8}}, reach));
     add("one particle", cube, {}, {{4, 4, 4}}, {{4.5, 4, 4}});
     add("one particle, none elsewhere", cube, {}, {{4, 4, 4}}, {});
     add("none", cube, {}, {}, {{1, 1, 1}});
@@ -183,7 +187,8 @@ TEST(Neighbours, OfADifferentSpacingAreFoundAsWell) {
     // A wall of a finer spacing, searched in its own cells.
     const Box box{{0, 0, 0}, {12, 10, 10}};
     const Frame frame(box.low, box.high, reach);
-    const Sorted own(frame, 1, random_points(box, 900, 24)), other(frame, 0.25, random_points({{4, 4, 4}, {6, 6, 6}}, 800, 25));
+    const Sorted own(frame, 1, random_points(box, 900, 24)),
+        other(frame, 0.25, random_points({{4, 4, 4}, {6, 6, 6}}, 800, 25));
     Neighbours rows;
     rows.find_other(frame, own.cells, other.cells, reach, 4);
     expect_complete(rows_of(rows, 900, 800), own.points, other.points, box, {}, false);
@@ -191,4 +196,4 @@ TEST(Neighbours, OfADifferentSpacingAreFoundAsWell) {
     expect_complete(rows_of(rows, 800, 900), other.points, own.points, box, {}, false);
 }
 
-}  // namespace
+}   // namespace

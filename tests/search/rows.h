@@ -50,7 +50,8 @@ struct Sorted {
 /// The rows as lists, by particle; those without a row are empty. Checks the layout on the way: `dummy_own` pads the
 /// members, a short row is padded with its own particle (padding_other == none) or with padding_other.
 inline constexpr std::uint32_t none = UINT32_MAX;
-inline std::vector<std::vector<std::uint32_t>> rows_of(const Neighbours& rows, std::size_t count, std::uint32_t padding_other) {
+inline std::vector<std::vector<std::uint32_t>> rows_of(const Neighbours& rows, std::size_t count,
+                                                       std::uint32_t padding_other) {
     std::vector<std::vector<std::uint32_t>> result(count);
     const std::size_t lanes = std::size_t(rows.lanes());
     std::uint32_t members_before = 0;
@@ -66,15 +67,22 @@ inline std::vector<std::vector<std::uint32_t>> rows_of(const Neighbours& rows, s
         std::uint64_t block_pairs = 0;
         for (std::size_t m = 0; m < block.member_count; ++m) {
             const std::uint32_t i = block.members[m];
-            if (i >= count || !result[i].empty()) { ADD_FAILURE() << "member " << i << " twice or out of range"; continue; }
+            if (i >= count || !result[i].empty()) {
+                ADD_FAILURE() << "member " << i << " twice or out of range";
+                continue;
+            }
             EXPECT_TRUE(m == 0 || i > block.members[m - 1]);
             const std::uint32_t padding = padding_other == none ? i : padding_other;
             bool ended = false;
-            for (std::size_t k = block.group_start[m / lanes] + m % lanes; k < block.group_start[m / lanes + 1]; k += lanes) {
+            for (std::size_t k = block.group_start[m / lanes] + m % lanes; k < block.group_start[m / lanes + 1];
+                 k += lanes) {
                 const std::uint32_t j = block.entries[k];
-                if (j == padding) ended = true;
-                else if (ended) ADD_FAILURE() << "neighbour behind the padding of " << i;
-                else result[i].push_back(j);
+                if (j == padding)
+                    ended = true;
+                else if (ended)
+                    ADD_FAILURE() << "neighbour behind the padding of " << i;
+                else
+                    result[i].push_back(j);
             }
             block_pairs += result[i].size();
         }
@@ -86,4 +94,4 @@ inline std::vector<std::vector<std::uint32_t>> rows_of(const Neighbours& rows, s
     return result;
 }
 
-}  // namespace patency::testing_rows
+}   // namespace patency::testing_rows

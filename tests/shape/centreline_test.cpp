@@ -239,11 +239,13 @@ TEST(Branches, TakeTheNamesOfPointsWithinThem) {
     const Lumen y = make_y();
     BranchedLines vessel = find_branches(find_centrelines(y.distance, y.openings));
     const auto in = [&](std::size_t b) {   // not on the axis, but within
-        const CentrelinePoint& middle = vessel.point(vessel.branches[b], (vessel.branches[b].first + vessel.branches[b].last) / 2);
+        const CentrelinePoint& middle =
+            vessel.point(vessel.branches[b], (vessel.branches[b].first + vessel.branches[b].last) / 2);
         return middle.place + Vec3{0, 0, 0.9 * middle.radius};
     };
     for (std::size_t b = 0; b < 3; ++b) EXPECT_EQ(branch_around(vessel, in(b)), b);
-    name_branches(vessel, std::map<std::string, Vec3>{{"branch_3", in(0)}, {"side", in(2)}, {"branch_1", in(1)}});   // names may change places
+    name_branches(vessel, std::map<std::string, Vec3>{
+                              {"branch_3", in(0)}, {"side", in(2)}, {"branch_1", in(1)}});   // names may change places
     EXPECT_EQ(vessel.branches[0].name, "branch_3");
     EXPECT_EQ(vessel.branches[1].name, "branch_1");
     EXPECT_EQ(vessel.branches[2].name, "side");
@@ -252,7 +254,8 @@ TEST(Branches, TakeTheNamesOfPointsWithinThem) {
 TEST(Branches, TakeNoNameThatWouldLie) {
     const Lumen y = make_y();
     const BranchedLines vessel = find_branches(find_centrelines(y.distance, y.openings));
-    const Vec3 trunk = vessel.point(vessel.branches[0], vessel.branches[0].last / 2).place, outside = trunk + Vec3{0, 0, 1.2 * vessel.point(vessel.branches[0], 0).radius};
+    const Vec3 trunk = vessel.point(vessel.branches[0], vessel.branches[0].last / 2).place,
+               outside = trunk + Vec3{0, 0, 1.2 * vessel.point(vessel.branches[0], 0).radius};
     EXPECT_FALSE(branch_around(vessel, outside));
     const auto refuses = [&](const std::map<std::string, Vec3>& points, const std::string& why) {
         BranchedLines named = vessel;

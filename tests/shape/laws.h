@@ -53,7 +53,8 @@ inline void expect_consistent_derivatives(const SignedDistance& d, const Bounds&
         for (int k = 0; k < 6; ++k) {
             const double sign = k < 3 ? 3 : -3;
             const Vec3 beside = x + sign * e * Vec3{double(k % 3 == 0), double(k % 3 == 1), double(k % 3 == 2)};
-            jump = jump || norm(d.gradient(beside) - s.gradient) > 1e-2 || std::abs(d.curvature(beside) - s.curvature) > 1e-2;
+            jump = jump || norm(d.gradient(beside) - s.gradient) > 1e-2 ||
+                   std::abs(d.curvature(beside) - s.curvature) > 1e-2;
         }
         if (jump) continue;
         ++smooth;
@@ -66,4 +67,4 @@ inline void expect_consistent_derivatives(const SignedDistance& d, const Bounds&
     EXPECT_GT(smooth, count / 2);
 }
 
-}  // namespace patency
+}   // namespace patency

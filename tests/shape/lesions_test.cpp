@@ -73,7 +73,8 @@ Straight straight(double length, Radius radius, double bifurcation_from = -1, do
         s.vessel.branches = {{"branch_1", 0, 0, count(0) - 1, -1, {0}},
                              {"branch_2", 0, count(0) + count(-1), ids.size() - 1, 0, {0}}};
     }
-    s.vessel.branch_ids.push_back(std::move(ids));   // g++ 12 warns of its own allocator where a copy of it is made here
+    s.vessel.branch_ids.push_back(
+        std::move(ids));   // g++ 12 warns of its own allocator where a copy of it is made here
     s.vessel.bifurcation_ids.push_back(std::move(bifurcations));
     return s;
 }

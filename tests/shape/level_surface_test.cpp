@@ -119,7 +119,9 @@ TEST(SurfaceCut, capsAreFlatAndTheRestStays) {
 }
 
 TEST(SurfaceCut, spareWhatIsBeyondItsReachAndLength) {
-    const LevelField field = [](const Vec3& x) { return std::min(norm(x - Vec3{0, 3, 0}), norm(x + Vec3{0, 3, 0})) - 1; };
+    const LevelField field = [](const Vec3& x) {
+        return std::min(norm(x - Vec3{0, 3, 0}), norm(x + Vec3{0, 3, 0})) - 1;
+    };
     const Surface two =
         make_level_surface(field, level_grid_around({{-1.5, -4.5, -1.5}, {1.5, 4.5, 1.5}}, 0.1), everywhere_crossed);
     Surface one_cut = two, both_cut = two, none_cut = two;

@@ -27,9 +27,13 @@ BranchesShape y_of_tubes(double extension = 2) {
 }
 
 std::vector<Lumen> lumens_with_openings() {
-    return {make_tube({.length = 3, .radius = 1}), make_cone({.length = 3, .inlet_radius = 1, .outlet_radius = 0.5}),
-            make_nozzle(nozzle), make_box({{3, 2, 1}, {Side::open, Side::wall, Side::wall}}),
-            make_branches(y_of_tubes()), make_channel({.length = 3, .gap = 1}), make_step({.length = 3, .gap = 1, .height = 0.4, .at = 1.2})};
+    return {make_tube({.length = 3, .radius = 1}),
+            make_cone({.length = 3, .inlet_radius = 1, .outlet_radius = 0.5}),
+            make_nozzle(nozzle),
+            make_box({{3, 2, 1}, {Side::open, Side::wall, Side::wall}}),
+            make_branches(y_of_tubes()),
+            make_channel({.length = 3, .gap = 1}),
+            make_step({.length = 3, .gap = 1, .height = 0.4, .at = 1.2})};
 }
 
 TEST(Lumen, measuresOfTubeConeAndNozzleAreTheClosedForms) {
@@ -65,11 +69,12 @@ TEST(Lumen, measuredVolumeAndAreaConvergeToTheClosedForms) {
     struct {
         Lumen straight;
         double volume, area;   // largest relative errors at resolution 1/32
-    } cases[] = {{make_tube({.length = 3, .radius = 1}), 1e-6, 1e-4},
-                 {make_tube({.length = 3, .radius = 1, .ends = Side::periodic}), 2e-5, 1e-3},   // along the cells: no averaging
-                 {make_cone({.length = 3, .inlet_radius = 1, .outlet_radius = 0.5}), 1e-5, 2e-4},
-                 {make_nozzle(nozzle), 1e-4, 5e-3},
-                 {make_box({{3, 2, 1}, {Side::open, Side::wall, Side::wall}}), 1e-4, 5e-3}};
+    } cases[] = {
+        {make_tube({.length = 3, .radius = 1}), 1e-6, 1e-4},
+        {make_tube({.length = 3, .radius = 1, .ends = Side::periodic}), 2e-5, 1e-3},   // along the cells: no averaging
+        {make_cone({.length = 3, .inlet_radius = 1, .outlet_radius = 0.5}), 1e-5, 2e-4},
+        {make_nozzle(nozzle), 1e-4, 5e-3},
+        {make_box({{3, 2, 1}, {Side::open, Side::wall, Side::wall}}), 1e-4, 5e-3}};
     for (const auto& c : cases) {
         const Lumen lumen = c.straight.period.x > 0 ? c.straight : moved(c.straight, tilt);
         const Measures coarse = measure(lumen, 1 / 16.0), fine = measure(lumen, 1 / 32.0);
@@ -135,8 +140,9 @@ TEST(Lumen, planeOfOneOpeningDoesNotCutAnotherBranch) {
 }
 
 TEST(Lumen, taperedBranchMeetsItsContinuationWithoutAStep) {
-    const Lumen lumen = make_branches(
-        {.branches = {{.points = {{0, 0, 0}, {4, 0, 0}}, .radii = {1, 0.5}, .start = "in", .end = "out"}}, .extension = 2});
+    const Lumen lumen =
+        make_branches({.branches = {{.points = {{0, 0, 0}, {4, 0, 0}}, .radii = {1, 0.5}, .start = "in", .end = "out"}},
+                       .extension = 2});
     const Opening& out = lumen.openings[1];
     for (double s : {-1e-9, 1e-9, 1.0})
         EXPECT_NEAR(lumen.distance.value(out.centre + Vec3{s, out.radius, 0}), 0, 1e-9) << s;
@@ -163,8 +169,9 @@ TEST(Lumen, refusesWhatCannotBe) {
     EXPECT_THROW(make_nozzle({{{0, 1}, {1, 0}}}), GeometryError);
     EXPECT_THROW(make_nozzle({{{0, 1}}}), GeometryError);
     EXPECT_THROW(make_branches({.branches = {}, .extension = 1}), GeometryError);
-    EXPECT_THROW(make_branches({.branches = {{.points = {{0, 0, 0}}, .radii = {1}, .start = "", .end = ""}}, .extension = 1}),
-                 GeometryError);
+    EXPECT_THROW(
+        make_branches({.branches = {{.points = {{0, 0, 0}}, .radii = {1}, .start = "", .end = ""}}, .extension = 1}),
+        GeometryError);
     BranchesShape shape = y_of_tubes();
     shape.branches[1].points[1] = {0.9, 0.6, 0};   // its opening lies within the other daughter
     EXPECT_THROW(make_branches(shape), GeometryError);
@@ -172,5 +179,5 @@ TEST(Lumen, refusesWhatCannotBe) {
     EXPECT_THROW(moved(make_tube({.length = 1, .radius = 1, .ends = Side::periodic}), tilt), GeometryError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

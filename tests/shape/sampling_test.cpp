@@ -16,8 +16,8 @@ const RigidMotion tilt = motion_along({1, 2, -0.5}, {0.3, -0.2, 0.1});
 TEST(Sampling, rowsOfChannelLieHalfASpacingFromThePlates) {
     const double gap = 1, spacing = 0.04;   // 25 rows
     const Lumen channel = make_channel({.length = 2, .gap = gap});
-    const FittedPoints points = make_fitted_points(
-        channel, spacing, {.wall_thickness = 0.16, .fluid_extension = 0.2, .wall_extension = 0.4});
+    const FittedPoints points =
+        make_fitted_points(channel, spacing, {.wall_thickness = 0.16, .fluid_extension = 0.2, .wall_extension = 0.4});
     EXPECT_EQ(points.fluid.size(), 25u * (50 + 5 + 5));
     EXPECT_EQ(points.fluid_count, (std::vector<std::size_t>{25 * 50, 25 * 5, 25 * 5}));
     EXPECT_EQ(points.wall.size(), 2u * 4 * (50 + 10 + 10));
@@ -69,7 +69,9 @@ TEST(Sampling, numberTimesVolumeIsTheLumensVolume) {
         for (std::size_t k = 0; k < points.fluid.size(); ++k) {
             ASSERT_LT(lumen.distance.value(points.fluid[k]), 0.5 * spacing);
             ASSERT_EQ(opening_beyond(lumen, points.fluid[k], spacing) + 1,
-                      k < points.fluid_count[0] ? 0 : k < points.fluid_count[0] + points.fluid_count[1] ? 1 : 2);
+                      k < points.fluid_count[0]                           ? 0
+                      : k < points.fluid_count[0] + points.fluid_count[1] ? 1
+                                                                          : 2);
         }
         // A lattice in the lumen's own frame keeps a row's distance from the flat openings.
         for (const Vec3& x : points.fluid)
@@ -81,8 +83,10 @@ TEST(Sampling, numberTimesVolumeIsTheLumensVolume) {
         }
         const double r = lumen.openings[0].radius, end = points.wall_end[0];
         if (lumen.volume < straight.volume) continue;   // the cone's wall has no short formula
-        EXPECT_NEAR(double(points.wall.size()), std::numbers::pi * 0.2 * (2 * r + 0.2) * (3 + 2 * end) / points.volume, 4);
-        EXPECT_NEAR(double(points.filler.size()), 2 * std::numbers::pi * r * r * (end - points.fluid_end[0]) / points.volume, 1);
+        EXPECT_NEAR(double(points.wall.size()), std::numbers::pi * 0.2 * (2 * r + 0.2) * (3 + 2 * end) / points.volume,
+                    4);
+        EXPECT_NEAR(double(points.filler.size()),
+                    2 * std::numbers::pi * r * r * (end - points.fluid_end[0]) / points.volume, 1);
     }
 }
 
@@ -103,5 +107,5 @@ TEST(Sampling, refusesALumenTooNarrowForTheSpacing) {
     EXPECT_THROW(make_fitted_points(lumen, std::nan(""), {}), GeometryError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -120,7 +120,8 @@ TEST(SignedDistance, motionCarriesTheXAxis) {
 }
 
 TEST(SignedDistance, boundsHoldTheInside) {
-    const SignedDistance d = moved(body_of_revolution(nozzle, TubeEnds::capped), motion_along({1, 1, 1}, {0.1, 0.2, 0.3}));
+    const SignedDistance d =
+        moved(body_of_revolution(nozzle, TubeEnds::capped), motion_along({1, 1, 1}, {0.1, 0.2, 0.3}));
     const Bounds& b = d.bounds();
     for (const Vec3& x : random_points({{-4, -4, -4}, {4, 4, 4}}, 20000))
         if (d.value(x) < 0) {
@@ -137,12 +138,11 @@ TEST(SignedDistance, boundsHoldTheInside) {
 // at the edge where they meet the walls stand at 90 degrees or less, and a point at depth a below both is
 // a / cos(45 deg) from the edge. So the true depth is at most sqrt(2) times the bound, and reaches that.
 TEST(SignedDistance, ofUnionUnderestimatesDepthByAtMostTheEdgesAngle) {
-    const SignedDistance d =
-        union_of_round_cones({{{-9, 0, 0}, {9, 0, 0}, 1, 1}, {{0, 0, 0}, {0, 9, 0}, 1, 1}});
+    const SignedDistance d = union_of_round_cones({{{-9, 0, 0}, {9, 0, 0}, 1, 1}, {{0, 0, 0}, {0, 9, 0}, 1, 1}});
     double worst = 1, least = 2;
     for (const Vec3& x : random_points({{-1.2, -0.9, -0.9}, {1.2, 1.5, 0.9}}, 60, 3)) {
         if (d.value(x) > -0.05) continue;
-        double depth = 100;   // the shortest of many rays to the wall, each walked by the distance itself
+        double depth = 100;       // the shortest of many rays to the wall, each walked by the distance itself
         const int rays = 40000;   // 1 degree apart: 1.5e-4 of the depth too long at most
         for (int k = 0; k < rays; ++k) {
             const double z = 1 - (2 * k + 1.0) / rays, angle = k * std::numbers::pi * (3 - std::sqrt(5.0));
@@ -173,7 +173,11 @@ TEST(MadeWhenAsked, IsMadeOnceAndOnlyThen) {
     const SignedDistance later = made_when_asked(
         [&] {
             ++made;
-            return SignedDistance([](const Vec3& x) { return DistanceSample{norm(x) - 1, normalized(x), 2 / norm(x)}; }, {{-1, -1, -1}, {1, 1, 1}});
+            return SignedDistance(
+                [](const Vec3& x) {
+                    return DistanceSample{norm(x) - 1, normalized(x), 2 / norm(x)};
+                },
+                {{-1, -1, -1}, {1, 1, 1}});
         },
         {{-1, -1, -1}, {1, 1, 1}});
     const SignedDistance copy = later;
@@ -193,5 +197,5 @@ TEST(MadeWhenAsked, WhatGoesWrongComesWithTheQuestion) {
     EXPECT_THROW(never.value({0, 0, 0}), GeometryError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -94,7 +94,8 @@ TEST(StentAxis, SightIsThatOfTheCoordinatesWhereverItWasSeenLast) {
         const Vec3 x = axis.place(p);
         const StentPoint at = axis.coordinates(x);
         std::size_t anywhere = std::size_t(k) % 59;   // it jumps, and it stays
-        const StentAxis::Sight jumped = axis.sight(x, anywhere), seen = axis.sight(x, near), again = axis.sight(x, near);
+        const StentAxis::Sight jumped = axis.sight(x, anywhere), seen = axis.sight(x, near),
+                               again = axis.sight(x, near);
         EXPECT_EQ(anywhere, near);
         for (const auto& s : {jumped, again}) {
             EXPECT_EQ(s.radius, seen.radius);

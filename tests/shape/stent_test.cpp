@@ -205,7 +205,8 @@ TEST_P(Library, OtherLengthsHaveTheSameRings) {
     const StentPattern same = with_length(pattern_, pattern_.length);
     EXPECT_EQ(same.rings, pattern_.rings);
     EXPECT_NEAR(same.length, pattern_.length, 1e-12);
-    const StentPattern longer = with_length(pattern_, 1.4 * pattern_.length), shorter = with_length(pattern_, 0.6 * pattern_.length);
+    const StentPattern longer = with_length(pattern_, 1.4 * pattern_.length),
+                       shorter = with_length(pattern_, 0.6 * pattern_.length);
     for (const StentPattern& p : {longer, shorter}) {
         EXPECT_NEAR(ring_amplitude(p), ring_amplitude(pattern_), 1e-12);
         EXPECT_NO_THROW(make_strut_curves(p));

@@ -150,7 +150,8 @@ TEST(ExactDistance, KnowsTheSideBesideACrumple) {
     const Surface smooth = make_torus_mesh(3e-3, 1e-3, 48, 20);
     const Vec3 dragged = smooth.points[0];
     std::vector<Vec3> near = smooth.points;
-    std::sort(near.begin(), near.end(), [&](const Vec3& a, const Vec3& b) { return norm(a - dragged) < norm(b - dragged); });
+    std::sort(near.begin(), near.end(),
+              [&](const Vec3& a, const Vec3& b) { return norm(a - dragged) < norm(b - dragged); });
     int inside = 0, outside = 0;
     for (std::size_t k = 6; k < 40; ++k) {
         Surface mesh = smooth;
@@ -163,7 +164,8 @@ TEST(ExactDistance, KnowsTheSideBesideACrumple) {
             if (std::abs(turns) > 0.1 && std::abs(turns - 1) > 0.1) continue;   // in a pocket of the crumple
             const bool is_inside = turns > 0.5;
             (is_inside ? inside : outside) += 1;
-            EXPECT_EQ(crumpled.value(x) < 0, is_inside) << k << ": " << 1e3 * x.x << " " << 1e3 * x.y << " " << 1e3 * x.z;
+            EXPECT_EQ(crumpled.value(x) < 0, is_inside)
+                << k << ": " << 1e3 * x.x << " " << 1e3 * x.y << " " << 1e3 * x.z;
         }
     }
     EXPECT_GT(std::min(inside, outside), 1000);

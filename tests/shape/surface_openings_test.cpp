@@ -68,7 +68,8 @@ TEST(SurfaceOpenings, OfCapsThatAreBent) {
     Surface tube = subdivided(make_tube_mesh({.start_cap = true, .end_cap = true}));
     tube.face_ids.clear();
     for (Vec3& x : tube.points)
-        x += Vec3{0.06e-3 * std::sin(2e3 * x.y + 1e3 * x.z), 0.1e-3 * std::sin(0.9e3 * x.x), 0};   // six degrees across a cap
+        x += Vec3{0.06e-3 * std::sin(2e3 * x.y + 1e3 * x.z), 0.1e-3 * std::sin(0.9e3 * x.x),
+                  0};   // six degrees across a cap
     const auto openings = openings_of(tube);
     ASSERT_EQ(openings.size(), 2u);
     for (const SurfaceOpening& o : openings) {

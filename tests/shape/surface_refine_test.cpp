@@ -56,7 +56,8 @@ TEST(RefineSurface, LeavesAloneWhatNobodyAskedFor) {
 
 TEST(RefineSurface, RefusesSizesThatNoTriangleHas) {
     Surface s = capped_tube();
-    EXPECT_THROW(refine_surface(s, [](const Vec3& x) { return x.x > 3e-3 ? 0.2e-3 : Bounds::infinity; }), GeometryError);
+    EXPECT_THROW(refine_surface(s, [](const Vec3& x) { return x.x > 3e-3 ? 0.2e-3 : Bounds::infinity; }),
+                 GeometryError);
 }
 
 }   // namespace

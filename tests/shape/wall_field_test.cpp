@@ -21,7 +21,8 @@ Centreline straight(const Vec3& from, const Vec3& to, double radius, const std::
     Centreline line{outlet};
     const double length = norm(to - from);
     const int n = int(std::ceil(length / 0.5e-3));
-    for (int k = 0; k <= n; ++k) line.points.push_back({from + (double(k) / n) * (to - from), normalized(to - from), radius, length * k / n});
+    for (int k = 0; k <= n; ++k)
+        line.points.push_back({from + (double(k) / n) * (to - from), normalized(to - from), radius, length * k / n});
     return line;
 }
 Centreline followed_by(Centreline a, const Centreline& b) {
@@ -48,7 +49,9 @@ TEST(WallField, FollowsTheLumenWithTheThicknessOfItsHealthyDiameter) {
     const double t = coronary_wall_thickness(2 * R);
     EXPECT_DOUBLE_EQ(wall.thinnest(), t);
     for (const double angle : {0.3, 2.0, 4.0}) {
-        const auto value = [&](double r, double x) { return wall.value({x, r * std::cos(angle), r * std::sin(angle)}); };
+        const auto value = [&](double r, double x) {
+            return wall.value({x, r * std::cos(angle), r * std::sin(angle)});
+        };
         EXPECT_NEAR(value(R, 10e-3), 0, 1e-12);
         EXPECT_NEAR(value(R + t, 10e-3), 0, 1e-12);
         EXPECT_NEAR(value(R + t / 2, 10e-3), -t / 2, 1e-12);
@@ -75,7 +78,8 @@ TEST(WallField, TakesAThicknessThatIsGivenAndEndsAtOpenings) {
 
 TEST(WallField, PlaqueFillsFromTheLumenToTheHealthyOne) {
     const double t = coronary_wall_thickness(2 * R), narrow = 0.8e-3;
-    const WallField filled = tube_wall({.is_filled = true, .line = 0, .from = 8e-3, .to = 12e-3, .reach = 3e-3}, narrow);
+    const WallField filled =
+        tube_wall({.is_filled = true, .line = 0, .from = 8e-3, .to = 12e-3, .reach = 3e-3}, narrow);
     const WallField thin = tube_wall({.line = 0, .from = 8e-3, .to = 12e-3, .reach = 3e-3}, narrow);
     EXPECT_NEAR(filled.value({10e-3, narrow, 0}), 0, 1e-12);
     EXPECT_NEAR(filled.value({10e-3, R + t, 0}), 0, 1e-9);
@@ -87,20 +91,24 @@ TEST(WallField, PlaqueFillsFromTheLumenToTheHealthyOne) {
 TEST(WallField, IsWholeAtABifurcation) {
     const Centreline trunk = straight({0, 0, 0}, {12e-3, 0, 0}, R, "a");
     const Vec3 up = {12e-3 + 12e-3, 9e-3, 0}, down = {12e-3 + 12e-3, -9e-3, 0};
-    const BranchedLines y = find_branches({followed_by(trunk, straight({12e-3, 0, 0}, up, 1.2e-3, "a")), followed_by(trunk, straight({12e-3, 0, 0}, down, 1.2e-3, "b"))});
-    const SignedDistance lumen = union_of_round_cones({{{0, 0, 0}, {12e-3, 0, 0}, R, R}, {{12e-3, 0, 0}, up, 1.2e-3, 1.2e-3}, {{12e-3, 0, 0}, down, 1.2e-3, 1.2e-3}});
+    const BranchedLines y = find_branches({followed_by(trunk, straight({12e-3, 0, 0}, up, 1.2e-3, "a")),
+                                           followed_by(trunk, straight({12e-3, 0, 0}, down, 1.2e-3, "b"))});
+    const SignedDistance lumen = union_of_round_cones(
+        {{{0, 0, 0}, {12e-3, 0, 0}, R, R}, {{12e-3, 0, 0}, up, 1.2e-3, 1.2e-3}, {{12e-3, 0, 0}, down, 1.2e-3, 1.2e-3}});
     std::vector<std::vector<double>> healthy;
     for (const Centreline& line : y.lines) {
         healthy.emplace_back();
         for (const CentrelinePoint& p : line.points) healthy.back().push_back(2 * p.radius);
     }
     // Reaching into the bifurcation takes all of it in: one end upstream, one in each branch.
-    const WallField wall(y, healthy, {{-1, 0, 0}, normalized(up - Vec3{12e-3, 0, 0}), normalized(down - Vec3{12e-3, 0, 0})}, lumen,
+    const WallField wall(y, healthy,
+                         {{-1, 0, 0}, normalized(up - Vec3{12e-3, 0, 0}), normalized(down - Vec3{12e-3, 0, 0})}, lumen,
                          {.line = 0, .from = 5e-3, .to = 9e-3, .reach = 2.5e-3});
     ASSERT_EQ(wall.ends().size(), 3u);
     // A plane just behind it would cut where the walls of both branches are one.
-    const WallField behind(y, healthy, {{-1, 0, 0}, normalized(up - Vec3{12e-3, 0, 0}), normalized(down - Vec3{12e-3, 0, 0})}, lumen,
-                           {.line = 0, .from = 18e-3, .to = 20e-3, .reach = 3e-3});
+    const WallField behind(y, healthy,
+                           {{-1, 0, 0}, normalized(up - Vec3{12e-3, 0, 0}), normalized(down - Vec3{12e-3, 0, 0})},
+                           lumen, {.line = 0, .from = 18e-3, .to = 20e-3, .reach = 3e-3});
     EXPECT_EQ(behind.ends().size(), 3u);
     EXPECT_LT(behind.value(Vec3{12e-3, R + 0.3e-3, 0}), 0);
     // On the outer side of both branches the wall is there, in the crotch it is, and nothing of it stands in the blood.

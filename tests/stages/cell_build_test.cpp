@@ -21,7 +21,8 @@
 namespace patency {
 namespace {
 
-constexpr double radius = 2e-3, length = 6e-3, density = 1060, mu = 3.5e-3, period = 0.3, push = 15, area = std::numbers::pi * radius * radius;
+constexpr double radius = 2e-3, length = 6e-3, density = 1060, mu = 3.5e-3, period = 0.3, push = 15,
+                 area = std::numbers::pi * radius * radius;
 
 /// A tube between a pressure that swings and `outlet`.
 deck::Case pulsed(const std::string& outlet, const std::string& duration, const std::string& more = "") {
@@ -32,11 +33,13 @@ blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
 openings:
   inlet: {type: pressure, waveform: {fourier: {mean: "1 Pa", period: "0.3 s", cosines: ["15 Pa"], sines: ["0 Pa"]}}}
   outlet: )" + outlet + R"(
-numerics: {scheme: cells, spacing: "0.5 mm", duration: ")" + duration + R"(", steps_per_period: 40}
+numerics: {scheme: cells, spacing: "0.5 mm", duration: ")" +
+                            duration + R"(", steps_per_period: 40}
 )" + more);
 }
 const std::string open = R"({type: pressure, pressure: "0 Pa"})";
-const std::string bed = R"({type: rcr, proximal_resistance: "1e6 Pa s/m^3", distal_resistance: "1e7 Pa s/m^3", compliance: "1e-8 m^3/Pa"})";
+const std::string bed =
+    R"({type: rcr, proximal_resistance: "1e6 Pa s/m^3", distal_resistance: "1e7 Pa s/m^3", compliance: "1e-8 m^3/Pa"})";
 
 TEST(CellMarch, FollowsAPulseThatTurns) {
     const auto scene = build_scene(pulsed(open, "1.8 s"));
@@ -90,7 +93,8 @@ numerics: {scheme: cells, spacing: "2.5 mm", duration: "0.1 s", steps_per_period
                          if (now.time < 0.05) return;
                          const double omega = 2 * std::numbers::pi, rise = 50e-6 * omega * std::sin(omega * now.time);
                          const double drop = now.ends[0].mean_pressure - now.ends[1].mean_pressure;
-                         EXPECT_NEAR(drop / (density * rise * 60e-3 / section), 1, 0.08) << now.time;   // friction is the rest
+                         EXPECT_NEAR(drop / (density * rise * 60e-3 / section), 1, 0.08)
+                             << now.time;   // friction is the rest
                      }});
 }
 
@@ -123,7 +127,9 @@ TEST(CellMarch, TakesAStepThatFailsByHalves) {
 }
 
 TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
-    const deck::Case config = pulsed(bed, "0.12 s", "output: {interval: \"0.05 s\", probes: [{name: middle, point: [\"1 mm\", \"2 mm\", \"-0.5 mm\"]}]}");
+    const deck::Case config =
+        pulsed(bed, "0.12 s",
+               "output: {interval: \"0.05 s\", probes: [{name: middle, point: [\"1 mm\", \"2 mm\", \"-0.5 mm\"]}]}");
     const Folder folder;
     const OutputFolder whole(folder.path / "whole"), out(folder.path / "parts");
     const int threads = omp_get_max_threads();
@@ -133,7 +139,8 @@ TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
         omp_set_num_threads(1 + ++runs % 2);
     omp_set_num_threads(threads);
     EXPECT_GT(runs, 2);
-    for (const char* name : {"summary.json", "waveforms.csv", "probes.csv", "fluid.pvd"}) EXPECT_EQ(text_of(whole.file(name)), text_of(out.file(name))) << name;
+    for (const char* name : {"summary.json", "waveforms.csv", "probes.csv", "fluid.pvd"})
+        EXPECT_EQ(text_of(whole.file(name)), text_of(out.file(name))) << name;
     for (int frame = 0; frame < 4; ++frame) {
         const auto file = fmt::format("frames/fluid_{:06d}.vtp", frame);
         EXPECT_FALSE(text_of(whole.file(file)).empty());
@@ -164,8 +171,9 @@ numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s", without_rest: fol
     // Borda and Carnot: where a section doubles the jet's momentum raises the pressure.
     EXPECT_LT(double(summary["openings"]["inlet"]["mean_pressure_pa"]), 0);
     int steps = 0, runs = 1;   // and it goes on to the same bytes
-    while (run_flow(config, {.folder = out, .interrupted = [&] { return out.has_checkpoint("flow") ? ++steps % 150 == 0 : ++steps % 500 == 0; }}) ==
-           Outcome::interrupted)
+    while (run_flow(config, {.folder = out, .interrupted = [&] {
+                                 return out.has_checkpoint("flow") ? ++steps % 150 == 0 : ++steps % 500 == 0;
+                             }}) == Outcome::interrupted)
         ++runs;
     EXPECT_GT(runs, 2);
     EXPECT_EQ(text_of(whole.file("summary.json")), text_of(out.file("summary.json")));
@@ -178,7 +186,8 @@ case: {name: jet}
 geometry: {shape: {type: step, gap: "2 mm", length: "12 mm", step_height: "1 mm", step_at: "3 mm"}}
 blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
 openings:
-  inlet: {type: velocity, profile: parabola, velocity: ")" + speed + R"("}
+  inlet: {type: velocity, profile: parabola, velocity: ")" +
+                            speed + R"("}
   outlet: {type: pressure, pressure: "0 Pa"}
 numerics: {scheme: cells, spacing: "0.25 mm", duration: "1 s"}
 )");
@@ -225,9 +234,11 @@ numerics: {scheme: cells, spacing: "0.2 mm", duration: "1 s"}
     const auto solved = make_solved_scene(config);
     const auto scene = build_cell_scene(config, *solved);
     const double drop = scene->ends[0].mean_pressure - scene->ends[1].mean_pressure, flow = scene->ends[1].flow;
-    advance(*scene, {.until = 20 * 2e-3 / 0.1, .observe = [&](const Scene& now, const FlowStep&) {   // twenty passages of the diameter
+    advance(*scene, {.until = 20 * 2e-3 / 0.1,
+                     .observe = [&](const Scene& now, const FlowStep&) {   // twenty passages of the diameter
                          EXPECT_NEAR(now.ends[1].flow / flow, 1, 1e-3) << now.time;
-                         EXPECT_NEAR((now.ends[0].mean_pressure - now.ends[1].mean_pressure) / drop, 1, 0.02) << now.time;
+                         EXPECT_NEAR((now.ends[0].mean_pressure - now.ends[1].mean_pressure) / drop, 1, 0.02)
+                             << now.time;
                      }});
     EXPECT_NEAR(scene->ends[1].flow / flow, 1, 1e-4);
     EXPECT_NEAR((scene->ends[0].mean_pressure - scene->ends[1].mean_pressure) / drop, 1, 0.01);

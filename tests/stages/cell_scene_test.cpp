@@ -42,7 +42,8 @@ TEST(CellScene, flowsAsTheDeckSays) {
     EXPECT_NEAR(inlet["flow_m3_per_s"], -flow, 1e-12 * flow);
     EXPECT_NEAR(outlet["flow_m3_per_s"], flow, 1e-6 * flow);
     EXPECT_NEAR(outlet["mean_pressure_pa"], 10 + 2e8 * flow, 1e-5);
-    EXPECT_NEAR(outlet["mean_pressure_pa"], 10 + 2e8 * double(outlet["flow_m3_per_s"]), 1e-8);   // its model's, of what leaves there
+    EXPECT_NEAR(outlet["mean_pressure_pa"], 10 + 2e8 * double(outlet["flow_m3_per_s"]),
+                1e-8);   // its model's, of what leaves there
     EXPECT_NEAR(outlet["resistance_pa_s_per_m3"], 2e8, 1);
     const double drop = 8 * mu * speed * length / (radius * radius);
     EXPECT_NEAR((double(inlet["mean_pressure_pa"]) - double(outlet["mean_pressure_pa"])) / drop, 1, 0.02);
@@ -67,9 +68,11 @@ TEST(CellScene, FieldsBetweenCellsCarryTheFlow) {
         }
     const CellFields fields = scene->balance->fields_at(places);
     double carried = 0, pressure = 0;
-    for (std::size_t n = 0; n < places.size(); ++n) carried += areas[n] * dot(fields.velocity[n], along), pressure += areas[n] * fields.pressure[n];
+    for (std::size_t n = 0; n < places.size(); ++n)
+        carried += areas[n] * dot(fields.velocity[n], along), pressure += areas[n] * fields.pressure[n];
     EXPECT_NEAR(carried / flow, 1, 0.01);
-    EXPECT_NEAR(pressure / (std::numbers::pi * radius * radius) / (4 * mu * speed * length / (radius * radius)), 1, 0.02);   // half of the drop
+    EXPECT_NEAR(pressure / (std::numbers::pi * radius * radius) / (4 * mu * speed * length / (radius * radius)), 1,
+                0.02);   // half of the drop
 }
 
 TEST(CellScene, SaysWhatItLooksLikeWhereItDiverged) {
@@ -96,7 +99,8 @@ TEST(CellScene, SaysWhatItLooksLikeWhereItDiverged) {
 
 // A bed a hundred thousand times as stiff as the tube: the level of the pressure is all its flow's.
 TEST(CellScene, flowsIntoABedThatIsStiff) {
-    const auto scene = make_solved_scene(tube(inflow + R"(, outlet: {type: resistance, resistance: "2e10 Pa s/m^3", distal_pressure: "5 mmHg"})"));
+    const auto scene = make_solved_scene(
+        tube(inflow + R"(, outlet: {type: resistance, resistance: "2e10 Pa s/m^3", distal_pressure: "5 mmHg"})"));
     ASSERT_TRUE(scene->solution.is_converged);
     EXPECT_LT(scene->solution.history.size(), 100u);
     const auto ends = scene->balance->end_states();

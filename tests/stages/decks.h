@@ -15,8 +15,8 @@ struct ChannelDeck {
     std::string outlet = "{type: pressure, pressure: \"0 Pa\"}";
     std::string initial = "{velocity: parabola, speed: \"0.11 m/s\", pressure: linear}";
     std::string duration = "10 ms";
-    std::string more = "";        // whole lines of the deck
-    std::string numerics = "";    // further keys
+    std::string more = "";       // whole lines of the deck
+    std::string numerics = "";   // further keys
 
     std::string text() const {
         return fmt::format(R"(version: 1
@@ -28,8 +28,10 @@ openings:
   outlet: {}
 initial: {}
 numerics: {{spacing: "{:.17g} mm", duration: "{}"{}}}
-{})", inlet, outlet, initial, 1.0 / across, duration, numerics.empty() ? "" : ", " + numerics, more);
+{})",
+                           inlet, outlet, initial, 1.0 / across, duration, numerics.empty() ? "" : ", " + numerics,
+                           more);
     }
 };
 
-}  // namespace patency
+}   // namespace patency

@@ -24,7 +24,8 @@ namespace {
 const std::string bifurcation = std::string(PATENCY_SOURCE_DIR) + "/cases/coronary_bifurcation.yaml";
 
 TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
-    deck::Case config = deck::read_case(bifurcation, {"stent={design: paper}", "deployment={diameter: 3.3 mm, mode: geometric}"});
+    deck::Case config =
+        deck::read_case(bifurcation, {"stent={design: paper}", "deployment={diameter: 3.3 mm, mode: geometric}"});
     const Folder out;
     const OutputFolder folder(out.path);
     ASSERT_TRUE(run_deploy(config, {.folder = folder}));
@@ -42,7 +43,9 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
     ASSERT_EQ(after.openings.size(), config.openings.size());
     const Vessel before = read_vessel(config), vessel = read_vessel(after);
     for (const SurfaceOpening& o : before.openings) {
-        const auto same = std::find_if(vessel.openings.begin(), vessel.openings.end(), [&](const SurfaceOpening& a) { return norm(a.opening.centre - o.opening.centre) < 0.02e-3; });
+        const auto same = std::find_if(vessel.openings.begin(), vessel.openings.end(), [&](const SurfaceOpening& a) {
+            return norm(a.opening.centre - o.opening.centre) < 0.02e-3;
+        });
         ASSERT_NE(same, vessel.openings.end()) << o.opening.name;
         EXPECT_NEAR(same->opening.area, o.opening.area, 0.02 * o.opening.area);
         EXPECT_TRUE(after.openings.at(same->opening.name) == config.openings.at(o.opening.name)) << o.opening.name;
@@ -51,12 +54,14 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
     // And its branches are called what they were: each has its name where it was.
     ASSERT_EQ(vessel.along->lines.branches.size(), before.along->lines.branches.size());
     for (const Branch& branch : before.along->lines.branches) {
-        const auto now = branch_around(vessel.along->lines, before.along->lines.point(branch, (branch.first + branch.last) / 2).place);
+        const auto now = branch_around(vessel.along->lines,
+                                       before.along->lines.point(branch, (branch.first + branch.last) / 2).place);
         ASSERT_TRUE(now) << branch.name;
         EXPECT_EQ(vessel.along->lines.branches[*now].name, branch.name);
     }
     // Both files are one surface.
-    const Surface stl = read_surface(folder.file("lumen_after.stl"), "mm"), vtp = read_surface(folder.file("lumen_after.vtp"), "mm");
+    const Surface stl = read_surface(folder.file("lumen_after.stl"), "mm"),
+                  vtp = read_surface(folder.file("lumen_after.vtp"), "mm");
     ASSERT_EQ(stl.triangles.size(), vtp.triangles.size());
     EXPECT_NEAR(volume(stl), volume(vtp), 1e-5 * volume(vtp));
 }
@@ -70,9 +75,14 @@ struct Traces {
 deck::Case small_deployment(const std::filesystem::path& folder) {
     nlohmann::json points;
     for (int k = 0; k <= 120; ++k) points.push_back({-2 + 0.2 * k, 0, 0, 1.65});
-    const auto end = [](double x, double out) { return nlohmann::json{{"point", {x, 0, 0}}, {"outward_normal", {out, 0, 0}}, {"radius", 1.65}}; };
-    write_file(folder / "artery.json", nlohmann::json{{"unit", "mm"}, {"blend_width_k", 0.35}, {"tubes", {{{"name", "artery"}, {"points", points}}}},
-                                                      {"ends", {{"inlet", end(0, -1)}, {"outlet", end(20, 1)}}}}.dump());
+    const auto end = [](double x, double out) {
+        return nlohmann::json{{"point", {x, 0, 0}}, {"outward_normal", {out, 0, 0}}, {"radius", 1.65}};
+    };
+    write_file(folder / "artery.json", nlohmann::json{{"unit", "mm"},
+                                                      {"blend_width_k", 0.35},
+                                                      {"tubes", {{{"name", "artery"}, {"points", points}}}},
+                                                      {"ends", {{"inlet", end(0, -1)}, {"outlet", end(20, 1)}}}}
+                                           .dump());
     write_file(folder / "case.yaml", R"(version: 1
 case: {name: ring}
 geometry: {network: artery.json, lesion: {branch: artery, position: 10 mm, length: 3 mm, diameter_stenosis_percent: 55}}
@@ -98,7 +108,8 @@ Traces traces_of(const std::vector<int>& stops) {
         EXPECT_FALSE(run_deploy(config, {.folder = folder, .interrupted = [&] { return ++steps == stop; }}));
     }
     EXPECT_FALSE(std::filesystem::exists(folder.file("summary.json")));
-    return {text_of(folder.file("deployment.csv")), CheckpointReader(folder.checkpoint("deploy")).read<std::vector<double>>("known")};
+    return {text_of(folder.file("deployment.csv")),
+            CheckpointReader(folder.checkpoint("deploy")).read<std::vector<double>>("known")};
 }
 
 TEST(DeployByContact, GoesOnWithTheSameBits) {
@@ -117,13 +128,15 @@ TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
     BranchedLines before, after;
     const auto straight = [](double y, double length) {
         Centreline line;
-        for (int k = 0; k <= 20; ++k) line.points.push_back({{length * k / 20, y, 0}, {1, 0, 0}, 1e-3, length * k / 20});
+        for (int k = 0; k <= 20; ++k)
+            line.points.push_back({{length * k / 20, y, 0}, {1, 0, 0}, 1e-3, length * k / 20});
         return line;
     };
     before.lines = {straight(0, 20e-3)};
     before.branches = {{.name = "branch_2", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}}};
     after.lines = {straight(0, 20e-3), straight(5e-3, 20e-3)};
-    after.branches = {{.name = "branch_1", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}}, {.name = "branch_2", .line = 1, .first = 0, .last = 20, .parent = -1, .lines = {1}}};
+    after.branches = {{.name = "branch_1", .line = 0, .first = 0, .last = 20, .parent = -1, .lines = {0}},
+                      {.name = "branch_2", .line = 1, .first = 0, .last = 20, .parent = -1, .lines = {1}}};
     EXPECT_TRUE(keep_branch_names(before, after).empty());
     EXPECT_EQ(after.branches[0].name, "branch_1");
     before.branches[0].name = "circumflex";
@@ -133,7 +146,16 @@ TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
 }
 
 StentPlace place_of(double cut, double crimped, double opened) {
-    StentPlace place{.pattern = {}, .form = {}, .diameter = opened, .crimped_diameter = crimped, .opened_length = 0, .line = 0, .arc = 0, .axis = {}, .reference_diameter = opened, .narrowest = 1e-3};
+    StentPlace place{.pattern = {},
+                     .form = {},
+                     .diameter = opened,
+                     .crimped_diameter = crimped,
+                     .opened_length = 0,
+                     .line = 0,
+                     .arc = 0,
+                     .axis = {},
+                     .reference_diameter = opened,
+                     .narrowest = 1e-3};
     place.pattern.diameter = cut, place.pattern.strut_thickness = 0.1e-3;
     return place;
 }
@@ -144,14 +166,15 @@ TEST(DeployProgram, CrimpsOpensAndLetsGo) {
     const DeployProgram p = make_deploy_program(place_of(2e-3, 1.2e-3, 3.2e-3), said);
     std::vector<DeployPhase> phases;
     for (const auto& entry : p.phases) phases.push_back(entry.phase);
-    EXPECT_EQ(phases, (std::vector{DeployPhase::crimp, DeployPhase::release, DeployPhase::open, DeployPhase::hold, DeployPhase::deflate, DeployPhase::settle}));
+    EXPECT_EQ(phases, (std::vector{DeployPhase::crimp, DeployPhase::release, DeployPhase::open, DeployPhase::hold,
+                                   DeployPhase::deflate, DeployPhase::settle}));
     EXPECT_DOUBLE_EQ(p.phases[0].end, 0.4 * 2e-3);   // as fast as it opens: 0.8 mm of 2 mm
     EXPECT_DOUBLE_EQ(p.crimper(0), 1e-3);
     EXPECT_DOUBLE_EQ(p.crimper(p.phases[0].end), 0.6e-3);
     EXPECT_GT(p.crimper(p.phases[1].end), 1e-3);
     EXPECT_DOUBLE_EQ(p.open_to - p.open_from, 2e-3);
-    EXPECT_DOUBLE_EQ(p.balloon(0), 0.5e-3);          // the crimped stent's inner face
-    EXPECT_DOUBLE_EQ(p.balloon(p.open_to), 1.5e-3);  // the open one's
+    EXPECT_DOUBLE_EQ(p.balloon(0), 0.5e-3);           // the crimped stent's inner face
+    EXPECT_DOUBLE_EQ(p.balloon(p.open_to), 1.5e-3);   // the open one's
     EXPECT_DOUBLE_EQ(p.balloon(p.phases[3].end), 1.5e-3);
     EXPECT_DOUBLE_EQ(p.balloon(p.end()), 0.5e-3);
     EXPECT_FALSE(p.predilation);
@@ -164,7 +187,8 @@ TEST(DeployProgram, OpensTheLesionBeforeIfAsked) {
     ASSERT_EQ(p.phases[2].phase, DeployPhase::enter);
     EXPECT_LT(p.predilation(0), 0.5e-3);
     EXPECT_DOUBLE_EQ(p.predilation(p.phases[1].end), 0.8e-3);
-    EXPECT_DOUBLE_EQ(p.predilation(p.phases[2].end), p.balloon(p.open_from));   // the folded balloon goes on where it ends
+    EXPECT_DOUBLE_EQ(p.predilation(p.phases[2].end),
+                     p.balloon(p.open_from));   // the folded balloon goes on where it ends
     // A stent that comes as crimped needs no crimper.
     const DeployProgram q = make_deploy_program(place_of(1.2e-3, 1.2e-3, 3.2e-3), {});
     EXPECT_EQ(q.phases.front().phase, DeployPhase::open);

@@ -35,7 +35,8 @@ double flow_through(const Opening& opening, const std::function<Vec3(const Vec3&
     double flow = 0;
     for (int k = 0; k < rings; ++k) {
         const double s = (k + 0.5) / rings, r = s * opening.radius;
-        const double area = opening.planar ? 2 * opening.radius / rings : 2 * std::numbers::pi * r * opening.radius / rings;
+        const double area =
+            opening.planar ? 2 * opening.radius / rings : 2 * std::numbers::pi * r * opening.radius / rings;
         flow -= area * dot(velocity(opening.centre + Vec3{0, r, 0}, time), opening.normal);
     }
     return flow;
@@ -61,12 +62,14 @@ TEST(EndLaw, a_coronary_bed_is_that_of_the_0d_program) {
 TEST(EndVelocity, integrates_to_the_flow_whatever_the_profile) {
     deck::Case config;
     config.blood.density = 1060, config.blood.viscosity = 3.5e-3;
-    for (const auto profile : {deck::VelocityProfile::plug, deck::VelocityProfile::parabola, deck::VelocityProfile::table})
+    for (const auto profile :
+         {deck::VelocityProfile::plug, deck::VelocityProfile::parabola, deck::VelocityProfile::table})
         for (const Opening& opening : {tube_inlet, gap_inlet}) {
             const deck::Opening said = flow_opening(profile);
             const EndLaw law = make_end_law(opening, said, config);
             // Midpoint rule, 2000 intervals: 1e-6 of smooth profiles and of kinks alike.
-            EXPECT_NEAR(flow_through(opening, make_end_velocity(opening, said, law, config.blood), 0), 2e-6, 1e-5 * 2e-6)
+            EXPECT_NEAR(flow_through(opening, make_end_velocity(opening, said, law, config.blood), 0), 2e-6,
+                        1e-5 * 2e-6)
                 << deck::word_of(profile) << (opening.planar ? " gap" : " tube");
         }
 }
@@ -99,7 +102,8 @@ TEST(EndVelocity, a_start_in_a_gap_begins_at_rest_and_ends_in_the_parabola) {
     EXPECT_NEAR(velocity(gap_inlet.centre, 100).x, peak, 1e-12 * peak);
     EXPECT_THROW(make_end_velocity(tube_inlet, said, law, config.blood), DeckError);
     const auto flow = make_end_flow(gap_inlet, said, law, config.blood);   // gap^2 / nu is a second
-    for (const double time : {0.001, 0.02, 0.1, 0.5}) EXPECT_NEAR(flow_through(gap_inlet, velocity, time), flow(time), 1e-5 * 2e-6) << time;
+    for (const double time : {0.001, 0.02, 0.1, 0.5})
+        EXPECT_NEAR(flow_through(gap_inlet, velocity, time), flow(time), 1e-5 * 2e-6) << time;
     EXPECT_LT(flow(0.02), 0.3 * 2e-6);
 }
 
@@ -112,7 +116,7 @@ TEST(Waveforms, come_from_tables_in_any_unit_or_are_refused) {
     deck::Case config;
     config.about.period = 1;
     const Waveform flow = make_signal_waveform(said, config, Dimension::flow, 1);
-    EXPECT_NEAR(flow(0.25), 1.5e-6, 1e-20);    // 90 mL/min, half-way
+    EXPECT_NEAR(flow(0.25), 1.5e-6, 1e-20);   // 90 mL/min, half-way
     EXPECT_NEAR(flow(1.25), flow(0.25), 1e-20);
     EXPECT_THROW(make_signal_waveform(said, config, Dimension::pressure, 1), DeckError);
     write("time,flow\n0,60\n1,60\n");
@@ -136,8 +140,8 @@ EndLaw prescribed_law(deck::OpeningType type, double value) {
 constexpr auto moving = deck::PressureReference::moving;
 
 TEST(MovingLevel, is_the_mean_of_prescribed_pressures) {
-    std::vector<EndLaw> laws{prescribed_law(deck::OpeningType::pressure, 700), prescribed_law(deck::OpeningType::pressure, 500),
-                             resistance_law(1e9, 50)};
+    std::vector<EndLaw> laws{prescribed_law(deck::OpeningType::pressure, 700),
+                             prescribed_law(deck::OpeningType::pressure, 500), resistance_law(1e9, 50)};
     std::vector<OpenEnd> ends(3);
     EXPECT_EQ(impose_laws(laws, ends, 0, 1e-4, moving), 600);
     EXPECT_EQ(ends[0].pressure, 100);
@@ -148,7 +152,8 @@ TEST(MovingLevel, is_the_mean_of_prescribed_pressures) {
 
 TEST(MovingLevel, is_where_the_outlets_take_up_the_inflow) {
     // p = 100 + 2e9 q_1 = 50 + 1e9 q_2 with q_1 + q_2 = 4e-6: 2766.67 Pa.
-    std::vector<EndLaw> laws{prescribed_law(deck::OpeningType::flow, 4e-6), resistance_law(2e9, 100), resistance_law(1e9, 50)};
+    std::vector<EndLaw> laws{prescribed_law(deck::OpeningType::flow, 4e-6), resistance_law(2e9, 100),
+                             resistance_law(1e9, 50)};
     std::vector<OpenEnd> ends(3);
     const double level = impose_laws(laws, ends, 0, 1e-4, moving);
     EXPECT_NEAR(level, (4e-6 + 100 / 2e9 + 50 / 1e9) / (1 / 2e9 + 1 / 1e9), 1e-9);
@@ -173,5 +178,5 @@ TEST(MovingLevel, charges_a_windkessel_as_its_closed_form) {
     EXPECT_NEAR(level, 100 + 1000 * (1 - std::exp(-middle / 0.1)), 1e-6);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

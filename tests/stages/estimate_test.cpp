@@ -120,14 +120,18 @@ TEST(Estimate, TheBifurcationsFlowsAndPressureAreNearFiniteVolumes) {
 TEST(Estimate, APatientsTreeLosesWhatFiniteVolumesSayToEveryOutlet) {
     const auto reference = finite_volumes("left_coronary_tree/finite_volume.json");
     if (!reference) GTEST_SKIP() << "../shared is not here";
-    const deck::Case config = deck::read_case(std::filesystem::path(PATENCY_SOURCE_DIR) / "cases/verify/cells_left_coronary_tree.yaml", {});
+    const deck::Case config =
+        deck::read_case(std::filesystem::path(PATENCY_SOURCE_DIR) / "cases/verify/cells_left_coronary_tree.yaml", {});
     const Vessel vessel = read_vessel(config);
     const Estimate e = estimate_flow(config, vessel);
     int compared = 0;
     for (std::size_t k = 1; k < vessel.openings.size(); ++k)
         for (const auto& [cap, o] : (*reference)["openings"].items())
-            if (norm(vessel.openings[k].opening.centre - 1e-3 * Vec3{o["centre_mm"][0], o["centre_mm"][1], o["centre_mm"][2]}) < 0.5e-3) {
-                EXPECT_NEAR((e.opening_pressures[0] - e.opening_pressures[k]) / double(o["drop_from_inlet_pa"]), 1, 0.08) << cap;
+            if (norm(vessel.openings[k].opening.centre -
+                     1e-3 * Vec3{o["centre_mm"][0], o["centre_mm"][1], o["centre_mm"][2]}) < 0.5e-3) {
+                EXPECT_NEAR((e.opening_pressures[0] - e.opening_pressures[k]) / double(o["drop_from_inlet_pa"]), 1,
+                            0.08)
+                    << cap;
                 ++compared;
             }
     EXPECT_EQ(compared, 6);

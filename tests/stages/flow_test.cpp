@@ -120,7 +120,9 @@ TEST(Flow, a_resistance_outlet_stands_at_its_pressure) {
 TEST(Flow, exact_times_are_hit_exactly) {
     const auto scene = built({});
     std::vector<double> times;
-    advance(*scene, {.until = 2e-3, .observe = [&](const Scene& s, const FlowStep&) { times.push_back(s.time); }, .exact_times = {3e-4, 1.1e-3}});
+    advance(*scene, {.until = 2e-3,
+                     .observe = [&](const Scene& s, const FlowStep&) { times.push_back(s.time); },
+                     .exact_times = {3e-4, 1.1e-3}});
     EXPECT_NE(std::find(times.begin(), times.end(), 3e-4), times.end());
     EXPECT_NE(std::find(times.begin(), times.end(), 1.1e-3), times.end());
     EXPECT_EQ(times.back(), 2e-3);
@@ -215,13 +217,16 @@ Swing late_swing(const std::string& inlet, const std::string& numerics) {
 
 TEST(Flow, sound_leaves_a_run_that_waits_for_rest) {
     const std::string waiting = ", convergence: {tolerance_percent: 1e-6}";
-    const std::string flow = "{type: velocity, profile: parabola, peak_velocity: \"0.165 m/s\"}", pressure = "{type: pressure, pressure: \"18.5 Pa\"}";
+    const std::string flow = "{type: velocity, profile: parabola, peak_velocity: \"0.165 m/s\"}",
+                      pressure = "{type: pressure, pressure: \"18.5 Pa\"}";
     EXPECT_LT(late_swing(flow, waiting).pressure, 0.25 * late_swing(flow, "").pressure);
     EXPECT_LT(late_swing(pressure, waiting).flow, 0.5 * late_swing(pressure, "").flow);
 }
 
 TEST(Build, an_end_lets_sound_out_of_a_steady_flow_alone) {
-    const auto is_there = [](const ChannelDeck& deck, std::size_t end) { return built(deck)->ends[end].absorber.is_there(); };
+    const auto is_there = [](const ChannelDeck& deck, std::size_t end) {
+        return built(deck)->ends[end].absorber.is_there();
+    };
     ChannelDeck deck;
     EXPECT_FALSE(is_there(deck, 0));   // nothing waits for rest: the times of the deck are those that are wanted
     EXPECT_FALSE(is_there(deck, 1));
@@ -255,5 +260,5 @@ TEST(Build, openings_must_be_the_shapes) {
     }
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -62,7 +62,8 @@ TEST(InitDeck, SameInputSameBytes) {
 
 /// What turns the deck into the one of moving particles that it tells the price of.
 deck::Settings moving_instead(const InitPlan& plan) {
-    return {"numerics.scheme=sph", "numerics.across=null", "numerics.spacing=" + format_quantity(plan.moving_spacing, "mm")};
+    return {"numerics.scheme=sph", "numerics.across=null",
+            "numerics.spacing=" + format_quantity(plan.moving_spacing, "mm")};
 }
 
 TEST(InitDeck, ItsForecastIsChecks) {
@@ -182,7 +183,8 @@ TEST(InitDeck, ProposesAStentThatFitsTheHealthyLumen) {
     EXPECT_LT(plan().stent->pattern.length, lesion.length() + 5.5 * mm);
     // With its comment signs taken away it is a deck too.
     std::string text = deck_text(y(), plan(), "/v");
-    for (const char* line : {"# stent:", "#   design:", "#   length:", "#   placement:", "# deployment:", "#   mode:"}) {
+    for (const char* line :
+         {"# stent:", "#   design:", "#   length:", "#   placement:", "# deployment:", "#   mode:"}) {
         const std::size_t at = text.find(std::string("\n") + line);
         ASSERT_NE(at, text.npos) << line;
         text.erase(at + 1, 2);

@@ -12,7 +12,10 @@
 namespace patency {
 namespace {
 
-nlohmann::ordered_json materials(const deck::Settings& settings) { return materials_summary(deck::read_case(std::filesystem::path(PATENCY_SOURCE_DIR) / "cases/coronary_bifurcation.yaml", settings)); }
+nlohmann::ordered_json materials(const deck::Settings& settings) {
+    return materials_summary(
+        deck::read_case(std::filesystem::path(PATENCY_SOURCE_DIR) / "cases/coronary_bifurcation.yaml", settings));
+}
 
 TEST(MaterialsSummary, OfAFlowIsTheBloods) {
     const auto blood = materials({});
@@ -21,7 +24,9 @@ TEST(MaterialsSummary, OfAFlowIsTheBloods) {
     EXPECT_EQ(blood[0]["source"], "the deck");
     EXPECT_EQ(blood[0]["density_kg_per_m3"], 1060);
     EXPECT_EQ(blood[0]["viscosity_pa_s"], 3.5e-3);
-    const auto casson = materials({"blood={density: 1050 kg/m^3, law: casson, yield_stress: 0.005 Pa, plastic_viscosity: 3.5 mPa s, max_viscosity: 100 mPa s}"});
+    const auto casson =
+        materials({"blood={density: 1050 kg/m^3, law: casson, yield_stress: 0.005 Pa, plastic_viscosity: 3.5 mPa s, "
+                   "max_viscosity: 100 mPa s}"});
     EXPECT_NEAR(casson[0]["yield_stress_mpa"].get<double>(), 5e-9, 1e-20);
 }
 
@@ -40,7 +45,8 @@ TEST(MaterialsSummary, OfADeploymentNamesTheSourcesOfTheTable) {
 
 TEST(MaterialsSummary, SaysWhatTheDeckChanged) {
     const auto all = materials({"stent={design: paper, alloy: 316L, material: {name: 316L, yield_stress: 300 MPa}}",
-                                "wall={layers: {adventitia_share: 0.3, adventitia: {law: neo_hookean, density: 1100 kg/m^3, young: 2 MPa, poisson: 0.4}}}"});
+                                "wall={layers: {adventitia_share: 0.3, adventitia: {law: neo_hookean, density: 1100 "
+                                "kg/m^3, young: 2 MPa, poisson: 0.4}}}"});
     ASSERT_EQ(all.size(), 4u);
     EXPECT_EQ(all[1]["part"], "media");
     EXPECT_EQ(all[2]["part"], "adventitia");

@@ -20,9 +20,10 @@ inline std::string text_of(const std::filesystem::path& path) {
 }
 
 struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                 fmt::format("patency_stages_{}_{}", ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name(),
-                                             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() /
+        fmt::format("patency_stages_{}_{}", ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name(),
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name());
     Folder() { std::filesystem::remove_all(path); }
     ~Folder() { std::filesystem::remove_all(path); }
 };

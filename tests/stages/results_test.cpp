@@ -42,7 +42,9 @@ void copy_particles(const ParticleSet& from, ParticleSet& to) {
 
 TEST(SceneState, a_restored_scene_goes_on_with_the_same_bits) {
     ChannelDeck deck;
-    deck.outlet = "{type: rcr, proximal_resistance: \"1e6 Pa s/m^3\", distal_resistance: \"1e7 Pa s/m^3\", compliance: \"1e-9 m^3/Pa\"}";
+    deck.outlet =
+        "{type: rcr, proximal_resistance: \"1e6 Pa s/m^3\", distal_resistance: \"1e7 Pa s/m^3\", compliance: \"1e-9 "
+        "m^3/Pa\"}";
     const deck::Case config = parsed(deck);
     const double middle = 1e-3, end = 2e-3;
 
@@ -100,15 +102,17 @@ TEST(FlowRecorder, rows_of_waveforms_add_up_to_what_flowed) {
     const auto scene = build_scene(parsed({}));
     FlowRecorder recorder(*scene);
     ASSERT_EQ(recorder.tables().front().columns,
-              (std::vector<std::string>{"time_s", "inlet_flow_m2_per_s", "inlet_mean_pressure_pa", "outlet_flow_m2_per_s", "outlet_mean_pressure_pa"}));
+              (std::vector<std::string>{"time_s", "inlet_flow_m2_per_s", "inlet_mean_pressure_pa",
+                                        "outlet_flow_m2_per_s", "outlet_mean_pressure_pa"}));
     double volume = 0, last = 0;
     recorder.write_row = [&](std::size_t, std::span<const double> row) {
         const double end = 2 * row[0] - last;   // the time is the middle of the row's interval
         volume += row[3] * (end - last);
         last = end;
     };
-    advance(*scene, {.until = 0.01, .observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s, s.time >= 0.01); }});
-    EXPECT_NEAR(last, 0.01, 1e-12);   // rounded once a row
+    advance(*scene,
+            {.until = 0.01, .observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s, s.time >= 0.01); }});
+    EXPECT_NEAR(last, 0.01, 1e-12);                                   // rounded once a row
     EXPECT_NEAR(volume, scene->laws[1].volume_out, 1e-12 * volume);   // sums of as many differences as rows
 }
 
@@ -174,14 +178,16 @@ TEST(RunFlow, keeps_the_contract_of_its_files) {
     deck.duration = "2 ms";
     run_flow(parsed(deck), {.folder = OutputFolder(folder.path)});
     const auto summary = nlohmann::json::parse(text_of(folder.path / "summary.json"));
-    for (const char* key : {"pressure_datum", "gauge_pressure_ratio", "mass_imbalance_percent", "acoustic_steps", "scheme"})
+    for (const char* key :
+         {"pressure_datum", "gauge_pressure_ratio", "mass_imbalance_percent", "acoustic_steps", "scheme"})
         EXPECT_TRUE(summary.contains(key)) << key;
     EXPECT_EQ(summary["pressure_datum"], "gauge");
     EXPECT_TRUE(summary["ffr"]["lesion"].is_null());
     EXPECT_FALSE(summary["ffr"]["reason"].get<std::string>().empty());
     for (const char* key : {"flow_m3_per_s", "mean_pressure_pa", "mean_velocity_m_per_s"})
         EXPECT_TRUE(summary["openings"]["outlet"].contains(key)) << key;
-    for (const char* key : {"fluid", "wall", "across_narrowest"}) EXPECT_TRUE(summary["particles"].contains(key)) << key;
+    for (const char* key : {"fluid", "wall", "across_narrowest"})
+        EXPECT_TRUE(summary["particles"].contains(key)) << key;
     const auto timing = nlohmann::json::parse(text_of(folder.path / "timing.json"));
     EXPECT_TRUE(timing["flow"].contains("cpu_s") && timing["flow"].contains("wall_s"));
     for (const char* name : {"fluid.pvd", "frames/fluid_000000.vtp", "checkpoint/flow.h5", "waveforms.csv"})
@@ -194,7 +200,9 @@ TEST(RunFlow, keeps_the_contract_of_its_files) {
 ChannelDeck busy_deck() {
     ChannelDeck deck;
     deck.duration = "3 ms";
-    deck.outlet = "{type: rcr, proximal_resistance: \"1e6 Pa s/m^3\", distal_resistance: \"1e7 Pa s/m^3\", compliance: \"1e-9 m^3/Pa\"}";
+    deck.outlet =
+        "{type: rcr, proximal_resistance: \"1e6 Pa s/m^3\", distal_resistance: \"1e7 Pa s/m^3\", compliance: \"1e-9 "
+        "m^3/Pa\"}";
     deck.more = R"(output:
   interval: "0.7 ms"
   average_from: "1 ms"
@@ -204,8 +212,14 @@ ChannelDeck busy_deck() {
     return deck;
 }
 
-const std::vector<std::string> compared_files{"summary.json", "waveforms.csv", "probes.csv", "profile_middle.csv", "fluid.pvd",
-                                              "frames/fluid_000000.vtp", "frames/fluid_000003.vtp", "frames/fluid_000005.vtp"};
+const std::vector<std::string> compared_files{"summary.json",
+                                              "waveforms.csv",
+                                              "probes.csv",
+                                              "profile_middle.csv",
+                                              "fluid.pvd",
+                                              "frames/fluid_000000.vtp",
+                                              "frames/fluid_000003.vtp",
+                                              "frames/fluid_000005.vtp"};
 
 TEST(RunFlow, an_interrupted_run_goes_on_to_the_same_bytes) {
     Folder folder;
@@ -256,12 +270,14 @@ TEST(RunFlow, a_checkpoint_of_another_deck_is_refused) {
     run_flow(parsed(deck), {.folder = out});
     deck.duration = "2 ms";
     EXPECT_THROW(run_flow(parsed(deck), {.folder = out}), CheckpointError);
-    EXPECT_THROW(run_flow(parsed(ChannelDeck{.duration = "1 ms"}), {.folder = out, .binary_hash = "another"}), CheckpointError);
+    EXPECT_THROW(run_flow(parsed(ChannelDeck{.duration = "1 ms"}), {.folder = out, .binary_hash = "another"}),
+                 CheckpointError);
 }
 
 TEST(RunFlow, an_interrupted_run_leaves_no_summary) {
     Folder folder;
-    EXPECT_EQ(run_flow(parsed({}), {.folder = OutputFolder(folder.path), .interrupted = [] { return true; }}), Outcome::interrupted);
+    EXPECT_EQ(run_flow(parsed({}), {.folder = OutputFolder(folder.path), .interrupted = [] { return true; }}),
+              Outcome::interrupted);
     EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
     EXPECT_TRUE(fs::exists(folder.path / "checkpoint/flow.h5"));
 }
@@ -282,5 +298,5 @@ TEST(RunFlow, fields_that_the_blood_has_not_are_refused) {
     EXPECT_THROW(run_flow(parsed(deck), {.folder = OutputFolder(folder.path)}), DeckError);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -45,7 +45,8 @@ output: {interval: 0.7 ms}
 
 class Stopped : public ::testing::TestWithParam<std::string> {
 protected:
-    std::filesystem::path root = std::filesystem::temp_directory_path() / ("patency_solid_" + std::to_string(::getpid()));
+    std::filesystem::path root =
+        std::filesystem::temp_directory_path() / ("patency_solid_" + std::to_string(::getpid()));
     ~Stopped() override { std::filesystem::remove_all(root); }
 
     /// Runs in its own folder, stopped after each of these numbers of steps (then to the end).
@@ -56,7 +57,8 @@ protected:
         for (std::size_t k = 0; k <= stops.size(); ++k) {
             const OutputFolder folder(out);
             int asked = 0;
-            const bool is_done = run_solids(config, {.folder = folder, .interrupted = [&] { return k < stops.size() && ++asked >= stops[k]; }});
+            const bool is_done = run_solids(
+                config, {.folder = folder, .interrupted = [&] { return k < stops.size() && ++asked >= stops[k]; }});
             EXPECT_EQ(is_done, k == stops.size());
         }
         omp_set_num_threads(1);
@@ -68,9 +70,11 @@ INSTANTIATE_TEST_SUITE_P(Solids, Stopped, ::testing::Values(ring, block));
 }   // namespace
 
 TEST_P(Stopped, GoOnWithTheSameBits) {
-    const auto straight = run("straight", {}, 1), stopped = run("stopped", {1, 60, 45, 30}, 2);   // before and while things touch
+    const auto straight = run("straight", {}, 1),
+               stopped = run("stopped", {1, 60, 45, 30}, 2);   // before and while things touch
     EXPECT_NE(read_file(straight / "summary.json").find("touching_vertices"), std::string::npos);
-    for (const char* file : {"summary.json", "energies.csv"}) EXPECT_EQ(read_file(stopped / file), read_file(straight / file)) << file;
+    for (const char* file : {"summary.json", "energies.csv"})
+        EXPECT_EQ(read_file(stopped / file), read_file(straight / file)) << file;
     std::size_t frames = 0;
     for (const auto& entry : std::filesystem::directory_iterator(straight / "frames")) {
         EXPECT_EQ(read_file(stopped / "frames" / entry.path().filename()), read_file(entry.path())) << entry.path();

@@ -25,7 +25,9 @@ solids:
 numerics: {spacing: 1 mm, duration: 3 ms, precision: double, solid: {plane_strain: true}}
 )";
 
-std::string with(std::string text, const std::string& part, const std::string& other) { return text.replace(text.find(part), part.size(), other); }
+std::string with(std::string text, const std::string& part, const std::string& other) {
+    return text.replace(text.find(part), part.size(), other);
+}
 
 }   // namespace
 
@@ -48,7 +50,8 @@ TEST(SolidMaterial, EveryDesignOfTheLibraryIsOfAMetalOfTheTable) {
     for (const StentDesign& design : stent_library()) {
         deck::SolidMaterialChoice alloy;
         alloy.name = design.pattern.alloy;
-        EXPECT_TRUE(std::holds_alternative<J2Plastic>(make_solid_material(alloy, "m").law)) << design.name << ": by contact it could not be implanted";
+        EXPECT_TRUE(std::holds_alternative<J2Plastic>(make_solid_material(alloy, "m").law))
+            << design.name << ": by contact it could not be implanted";
     }
 }
 
@@ -129,6 +132,10 @@ TEST(SolidScene, ComputedTwiceItIsTheSame) {
 
 TEST(SolidScene, WrongFacesAndEmptyHoldsAreSentences) {
     EXPECT_THROW(build_solids(deck::parse_case(with(block, "face: x_high", "face: inner"))), DeckError);
-    EXPECT_THROW(build_solids(deck::parse_case(with(block, "{face: x_low}", "{low: [1 m, 1 m, 0 m], high: [2 m, 2 m, 1 m]}"))), DeckError);
-    EXPECT_THROW(build_solids(deck::parse_case(with(block, "law: neo_hookean", "law: fibre_artery, fibre_stiffness: 1 kPa, fibre_growth: 1"))), DeckError);
+    EXPECT_THROW(
+        build_solids(deck::parse_case(with(block, "{face: x_low}", "{low: [1 m, 1 m, 0 m], high: [2 m, 2 m, 1 m]}"))),
+        DeckError);
+    EXPECT_THROW(build_solids(deck::parse_case(
+                     with(block, "law: neo_hookean", "law: fibre_artery, fibre_stiffness: 1 kPa, fibre_growth: 1"))),
+                 DeckError);
 }

@@ -76,7 +76,8 @@ TEST(ThinningPlane, is_the_power_laws_profile) {
 
 TEST(ThinningPlane, flow_is_the_integral_of_its_velocity) {
     for (const Rheology& law : {Rheology{blood_carreau_yasuda}, Rheology{blood_casson}, Rheology{blood_power_law}}) {
-        const double flow = integral(0, plane.gap, [&](double y) { return thinning_plane_velocity(plane, law, y); }, 200);
+        const double flow = integral(
+            0, plane.gap, [&](double y) { return thinning_plane_velocity(plane, law, y); }, 200);
         EXPECT_NEAR(thinning_plane_flow(plane, law) / flow, 1, 1e-5);
         EXPECT_NEAR(viscosity(law, shear_rate_at(law, 0.7)) * shear_rate_at(law, 0.7), 0.7, 1e-13);
     }
@@ -124,7 +125,8 @@ TEST(PlugStart, mean_is_the_integral_and_falls_before_it_recovers) {
 TEST(Pipe, flow_is_the_integral_of_velocity) {
     const PipeFlow pipe{0.002, 500};
     const auto flow_of = [&](auto velocity) {
-        return integral(0, 0.002, [&](double r) { return 2 * pi * r * velocity(r); }, 20000);
+        return integral(
+            0, 0.002, [&](double r) { return 2 * pi * r * velocity(r); }, 20000);
     };
     const double q = pipe_flow(pipe, 0.0035);
     EXPECT_NEAR(flow_of([&](double r) { return pipe_velocity(pipe, 0.0035, r); }), q, 1e-12 * q);
@@ -148,7 +150,8 @@ TEST(Pipe, thinning_laws_carry_their_own_stress) {
     for (double r : {0.0007, 0.001, 0.0019}) {
         const double d = 1e-7;
         const double g_power = (power_law_pipe_velocity(pipe, blood_power_law, r - d) -
-                                power_law_pipe_velocity(pipe, blood_power_law, r + d)) / (2 * d);
+                                power_law_pipe_velocity(pipe, blood_power_law, r + d)) /
+                               (2 * d);
         const PowerLaw free{blood_power_law.consistency, blood_power_law.index, 0, 1e9};
         EXPECT_NEAR(viscosity(free, g_power) * g_power, 500 * r / 2, 1e-5);
         const double g_casson =
@@ -330,5 +333,5 @@ TEST(YNetwork, marching_in_time_finds_the_same_flow) {
     }
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

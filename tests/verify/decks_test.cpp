@@ -35,14 +35,22 @@ TEST(VerificationCases, names_differ_and_decks_read) {
             bars += f.bar.has_value();
         }
         EXPECT_GT(bars, 0) << c.name;
-        if (c.pictures) { EXPECT_NO_THROW(c.pictures(results)) << c.name; }
+        if (c.pictures) {
+            EXPECT_NO_THROW(c.pictures(results)) << c.name;
+        }
     }
     EXPECT_EQ(names.size(), 32u);
 }
 
 TEST(VerificationCases, an_unknown_name_is_refused_with_the_nearest) {
     try {
-        run_verification({.names = {"poisseuille"}, .level = Level::quick, .out = "out", .decks = decks, .reference = {}, .program = "", .settings = {}});
+        run_verification({.names = {"poisseuille"},
+                          .level = Level::quick,
+                          .out = "out",
+                          .decks = decks,
+                          .reference = {},
+                          .program = "",
+                          .settings = {}});
         FAIL();
     } catch (const UsageError& error) {
         EXPECT_NE(std::string(error.what()).find("poiseuille"), std::string::npos);
@@ -50,7 +58,8 @@ TEST(VerificationCases, an_unknown_name_is_refused_with_the_nearest) {
 }
 
 TEST(Svg, a_plot_holds_every_point_and_nothing_else_is_drawn_of_nothing) {
-    const std::string svg = format_plot({"x", "y", {{"line", {0, 1, 2}, {0, 1, 4}, false}, {"dots", {0.5, 1.5}, {1, 2}, true}}});
+    const std::string svg =
+        format_plot({"x", "y", {{"line", {0, 1, 2}, {0, 1, 4}, false}, {"dots", {0.5, 1.5}, {1, 2}, true}}});
     std::size_t circles = 0;
     for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
     EXPECT_EQ(circles, 2u);
@@ -60,7 +69,8 @@ TEST(Svg, a_plot_holds_every_point_and_nothing_else_is_drawn_of_nothing) {
 }
 
 TEST(Svg, a_curve_without_a_name_goes_with_the_one_before_it) {
-    const std::string svg = format_plot({"x", "y", {{"exact", {0, 1}, {0, 1}}, {"", {0, 1}, {1, 2}}, {"found", {0, 1}, {0, 2}, true}}});
+    const std::string svg =
+        format_plot({"x", "y", {{"exact", {0, 1}, {0, 1}}, {"", {0, 1}, {1, 2}}, {"found", {0, 1}, {0, 2}, true}}});
     const auto count = [&](const std::string& what) {
         std::size_t n = 0;
         for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++n;
@@ -73,5 +83,5 @@ TEST(Svg, a_curve_without_a_name_goes_with_the_one_before_it) {
     EXPECT_NE(colour(first), colour(svg.find("<circle")));
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

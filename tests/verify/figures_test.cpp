@@ -30,7 +30,8 @@ TEST(Figures, a_bar_is_met_on_its_own_side) {
 
 TEST(Figures, a_report_reads_back_as_written) {
     CaseReport report{.name = "pipe", .level = Level::full, .particles = 34000, .figures = {}};
-    report.figures.push_back({.key = "a", .value = 0.1 + 0.2, .unit = "percent", .bar = Bar{1.5, Sense::at_least}, .reason = ""});
+    report.figures.push_back(
+        {.key = "a", .value = 0.1 + 0.2, .unit = "percent", .bar = Bar{1.5, Sense::at_least}, .reason = ""});
     report.figures.push_back({.key = "b", .value = {}, .unit = "deg", .bar = Bar{3}, .reason = "the run failed"});
     report.figures.push_back({.key = "paper_c", .value = 6.31, .unit = "percent", .bar = {}, .reason = ""});
     const CaseReport back = parse_report(format_report(report), "text");
@@ -46,7 +47,8 @@ TEST(Figures, a_report_reads_back_as_written) {
 
 TEST(Figures, no_nan_reaches_a_report) {
     CaseReport report{.name = "pipe", .level = Level::quick, .particles = 1, .figures = {}};
-    report.figures.push_back({.key = "a", .value = std::numeric_limits<double>::quiet_NaN(), .unit = "1", .bar = Bar{1}, .reason = ""});
+    report.figures.push_back(
+        {.key = "a", .value = std::numeric_limits<double>::quiet_NaN(), .unit = "1", .bar = Bar{1}, .reason = ""});
     EXPECT_FALSE(report.passes());
     EXPECT_THROW(format_report(report), Error);
     EXPECT_THROW(parse_report("{\"name\": 3}", "text"), FileError);
@@ -54,7 +56,14 @@ TEST(Figures, no_nan_reaches_a_report) {
 }
 
 TEST(RunData, reads_back_bit_for_bit_and_refuses_what_was_cut_off) {
-    RunData run{.key = "k", .failure = "", .particles = 5, .acoustic_steps = 7, .particle_steps = 35, .cpu_s = 0.1, .wall_s = 0.2, .lists = {}};
+    RunData run{.key = "k",
+                .failure = "",
+                .particles = 5,
+                .acoustic_steps = 7,
+                .particle_steps = 35,
+                .cpu_s = 0.1,
+                .wall_s = 0.2,
+                .lists = {}};
     run.lists["u"] = {1.0 / 3, -0.0, 5e-324};
     const std::string text = format_run(run);
     const auto back = parse_run(text);
@@ -81,5 +90,5 @@ TEST(FigureList, leaves_out_other_levels_and_keeps_failures) {
     EXPECT_NE(figures[1].reason.find("it diverged"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

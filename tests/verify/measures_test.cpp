@@ -16,7 +16,8 @@ constexpr double pi = std::numbers::pi;
 TEST(Measures, rmsep_is_local_and_l2_is_not) {
     const Numbers exact{1, 2, 4}, computed{1.01, 2.02, 4.04};
     EXPECT_NEAR(rmsep_percent(computed, exact), 1, 1e-10);
-    EXPECT_NEAR(l2_percent(computed, exact, 4), 100 * std::sqrt((0.01 * 0.01 + 0.02 * 0.02 + 0.04 * 0.04) / 3) / 4, 1e-10);
+    EXPECT_NEAR(l2_percent(computed, exact, 4), 100 * std::sqrt((0.01 * 0.01 + 0.02 * 0.02 + 0.04 * 0.04) / 3) / 4,
+                1e-10);
     EXPECT_EQ(rmsep_percent(exact, exact), 0);
     EXPECT_EQ(l2_percent(exact, exact, 4), 0);
 }
@@ -30,7 +31,8 @@ TEST(Measures, extrapolates_a_parabola_and_bounds_its_error) {
     const SpacingStudy study{{0.4, 0.3, 0.2}, {value(0.4), value(0.3), value(0.2)}};
     EXPECT_NEAR(study.extrapolated(), 7, 1e-12);
     EXPECT_NEAR(study.convergence_index_percent(), 1.25 * 100 * (value(0.2) - 7) / value(0.2), 1e-10);
-    const SpacingStudy rough{{0.4, 0.3, 0.2}, {value(0.4) + 1, value(0.3), value(0.2)}};   // what the coarse ones say counts as well
+    const SpacingStudy rough{{0.4, 0.3, 0.2},
+                             {value(0.4) + 1, value(0.3), value(0.2)}};   // what the coarse ones say counts as well
     EXPECT_NEAR(rough.convergence_index_percent(), 1.25 * 100 * (1 + 2 * 0.07) / 0.07 * 0.04 / value(0.2), 1e-10);
 }
 
@@ -58,5 +60,5 @@ TEST(Measures, decay_of_an_exponential) {
     EXPECT_NEAR(decay_rate(times, values), 3.2, 1e-12);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -9,9 +9,16 @@ namespace patency {
 namespace {
 
 TEST(PaperTables, StandBesideOursAndThePapersSchemeRunHere) {
-    const auto figure = [](const char* key, double value) { return Figure{.key = key, .value = value, .unit = "percent", .bar = {}, .reason = ""}; };
-    const CaseReport plates{.name = "plates", .level = Level::full, .particles = 1, .figures = {figure("e", 0.1), figure("paper_e", 3.0), figure("paper_printed_e", 6.31), figure("other", 1)}};
-    const CaseReport vessel{.name = "vessel", .level = Level::full, .particles = 1, .figures = {figure("paper_printed_v", 0.325)}};
+    const auto figure = [](const char* key, double value) {
+        return Figure{.key = key, .value = value, .unit = "percent", .bar = {}, .reason = ""};
+    };
+    const CaseReport plates{
+        .name = "plates",
+        .level = Level::full,
+        .particles = 1,
+        .figures = {figure("e", 0.1), figure("paper_e", 3.0), figure("paper_printed_e", 6.31), figure("other", 1)}};
+    const CaseReport vessel{
+        .name = "vessel", .level = Level::full, .particles = 1, .figures = {figure("paper_printed_v", 0.325)}};
     const CaseReport reports[] = {plates, vessel};
     const std::string table = paper_figures_table(reports);
     EXPECT_NE(table.find("| [plates](#plates) | `e` | percent | 6.31 | 3 | 0.1 |\n"), std::string::npos) << table;

@@ -54,5 +54,5 @@ TEST(PipeProfile, flow_of_a_parabola_is_exact_though_particles_keep_off_the_wall
     EXPECT_NEAR(flow_through(fit, radius), 0.5 * 3.14159265358979, 1e-12);
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

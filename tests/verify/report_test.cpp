@@ -16,7 +16,10 @@ void put(const fs::path& out, const std::string& name, double value, const char*
     CaseReport report{.name = name, .level = Level::full, .particles = 1152, .figures = {}};
     report.figures.push_back({.key = "error_percent", .value = value, .unit = "percent", .bar = Bar{1}, .reason = ""});
     write_file(out / (name + ".json"), format_report(report));
-    write_file(out / (name + ".timing.json"), std::string(R"({"date": ")") + date + R"(", "cpu_s": 12, "runs": {"d12": {"particles": 7, "acoustic_steps": 8, "cpu_s": 9, "wall_s": 10}}})");
+    write_file(
+        out / (name + ".timing.json"),
+        std::string(R"({"date": ")") + date +
+            R"(", "cpu_s": 12, "runs": {"d12": {"particles": 7, "acoustic_steps": 8, "cpu_s": 9, "wall_s": 10}}})");
     write_file(out / "pictures" / (name + ".json"), R"([{"name": ")" + name + R"(_profile", "caption": "Profiles"}])");
     write_file(out / "pictures" / (name + "_profile.svg"), "<svg>" + name + "</svg>");
 }
@@ -45,5 +48,5 @@ TEST(VerificationReport, KeepsWhatWasNotRunAgain) {
     EXPECT_EQ(read_file(kept / "poiseuille_profile.svg"), "<svg>poiseuille</svg>");
 }
 
-}  // namespace
-}  // namespace patency
+}   // namespace
+}   // namespace patency

@@ -20,13 +20,15 @@ SlenderTube cone(double flow, double length = 0.04) {
 
 TEST(SlenderTube, losesWhatPoiseuilleSaysWhereItIsStraight) {
     const SlenderTube tube{[](double) { return 1e-3; }, 0.02, 1e-6, 1060, 3.5e-3};
-    EXPECT_NEAR(slender_tube_pressure_drop(tube, 0.005, 0.015) / (0.01 * pipe_pressure_gradient(1e-3, 3.5e-3, 1e-6)), 1, 1e-6);
+    EXPECT_NEAR(slender_tube_pressure_drop(tube, 0.005, 0.015) / (0.01 * pipe_pressure_gradient(1e-3, 3.5e-3, 1e-6)), 1,
+                1e-6);
 }
 
 TEST(SlenderTube, losesInPartsWhatItLosesInAll) {
     const SlenderTube tube = cone(2e-7);
     const double all = slender_tube_pressure_drop(tube, 0, 0.04);
-    EXPECT_NEAR(slender_tube_pressure_drop(tube, 0, 0.0171) + slender_tube_pressure_drop(tube, 0.0171, 0.04), all, 1e-12 * all);
+    EXPECT_NEAR(slender_tube_pressure_drop(tube, 0, 0.0171) + slender_tube_pressure_drop(tube, 0.0171, 0.04), all,
+                1e-12 * all);
 }
 
 // In a radius that falls by the same share everywhere the profile settles, and the slope of the pressure is, to first order in
@@ -38,7 +40,8 @@ TEST(SlenderTube, feelsInertiaAsThePerturbationOfTheParabola) {
         const double rate = (k == 0 ? -0.02 : -0.01) * unit;   // d ln R / dx
         const SlenderTube tube{[rate](double x) { return 1e-3 * std::exp(rate * x); }, 10 / unit, flow, 1060, 3.5e-3};
         const double from = 0.8 * tube.length, to = tube.length;
-        const double creeping = 8 * 3.5e-3 * flow / (pi * 1e-12) * (std::exp(-4 * rate * to) - std::exp(-4 * rate * from)) / (-4 * rate);
+        const double creeping =
+            8 * 3.5e-3 * flow / (pi * 1e-12) * (std::exp(-4 * rate * to) - std::exp(-4 * rate * from)) / (-4 * rate);
         excess[k] = (slender_tube_pressure_drop(tube, from, to) / creeping - 1) / (-2 * rate / unit) - 1;
     }
     EXPECT_LT(std::abs(excess[0]), 0.03);
@@ -51,7 +54,8 @@ TEST(SlenderTube, missesACreepingFlowInAConeByTheSquareOfItsSlope) {
         const double slope = 1.5e-3 / length, c = std::cos(std::atan(slope));
         const SlenderTube tube = cone(1e-12, length);
         const double exact_over_lubrication = 3 * (1 + c) * (1 + c) / (4 * c * (1 + 2 * c));
-        const double lubrication = 8 * tube.viscosity * tube.flow / (3 * pi * slope) * (std::pow(0.5e-3, -3) - std::pow(2e-3, -3));
+        const double lubrication =
+            8 * tube.viscosity * tube.flow / (3 * pi * slope) * (std::pow(0.5e-3, -3) - std::pow(2e-3, -3));
         const double computed = slender_tube_pressure_drop(tube, 0, length);
         EXPECT_NEAR(computed / lubrication, 1, 1e-4);
         EXPECT_NEAR(exact_over_lubrication - 1, slope * slope / 3, 0.02 * slope * slope);
@@ -61,7 +65,8 @@ TEST(SlenderTube, missesACreepingFlowInAConeByTheSquareOfItsSlope) {
 TEST(SlenderTube, convergesWithTheSquareOfItsGrid) {
     const SlenderTube tube = cone(2.6e-7);   // Re from 25 to 100: of the verification case
     double drop[3];
-    for (int k = 0; k < 3; ++k) drop[k] = slender_tube_pressure_drop(tube, 0, 0.04, {.rings = 50 << k, .steps = 100 << k});
+    for (int k = 0; k < 3; ++k)
+        drop[k] = slender_tube_pressure_drop(tube, 0, 0.04, {.rings = 50 << k, .steps = 100 << k});
     EXPECT_LT(std::abs(drop[2] - drop[1]), 0.35 * std::abs(drop[1] - drop[0]));
     EXPECT_LT(std::abs(drop[2] / drop[1] - 1), 1e-3);
 }

@@ -60,5 +60,6 @@ TEST(Hertz, LoadWidthAndPressureAreOne) {
     // At the surface both bodies' parts are the approach; far below a point force's displacement is left.
     const double young = 5, nu = 0.3, modulus = young / (2 * (1 - nu * nu)), force = hertz_force(4, modulus, 0.25);
     EXPECT_NEAR(hertz_sinking(4, modulus, force, young, nu, 0), 0.125, 1e-7);
-    EXPECT_NEAR(hertz_sinking(4, modulus, force, young, nu, 100), (1 + nu) * (3 - 2 * nu) * force / (2 * std::numbers::pi * young * 100), 1e-4 * force / 500);
+    EXPECT_NEAR(hertz_sinking(4, modulus, force, young, nu, 100),
+                (1 + nu) * (3 - 2 * nu) * force / (2 * std::numbers::pi * young * 100), 1e-4 * force / 500);
 }

@@ -15,9 +15,12 @@
 namespace patency {
 
 inline Vec3 shortest(Vec3 d, const Frame& frame) {   // the short way round a periodic box
-    const auto wrap = [](double x, double side, bool periodic) { return periodic ? x - side * std::round(x / side) : x; };
+    const auto wrap = [](double x, double side, bool periodic) {
+        return periodic ? x - side * std::round(x / side) : x;
+    };
     const Vec3 side = frame.high() - frame.low();
-    return {wrap(d.x, side.x, frame.periodic()[0]), wrap(d.y, side.y, frame.periodic()[1]), wrap(d.z, side.z, frame.periodic()[2])};
+    return {wrap(d.x, side.x, frame.periodic()[0]), wrap(d.y, side.y, frame.periodic()[1]),
+            wrap(d.z, side.z, frame.periodic()[2])};
 }
 
 /// Points that may be near a place: those of a box around all places, in buckets of one reach. Along periodic axes there
@@ -56,7 +59,8 @@ public:
         const auto c = cell_of(x);
         for (int k = std::max(0, c[2] - 1); k <= std::min(count_[2] - 1, c[2] + 1); ++k)
             for (int j = std::max(0, c[1] - 1); j <= std::min(count_[1] - 1, c[1] + 1); ++j) {
-                const std::size_t first = number({std::max(0, c[0] - 1), j, k}), last = number({std::min(count_[0] - 1, c[0] + 1), j, k});
+                const std::size_t first = number({std::max(0, c[0] - 1), j, k}),
+                                  last = number({std::min(count_[0] - 1, c[0] + 1), j, k});
                 for (std::size_t n = start_[first]; n < start_[last + 1]; ++n) visit(index_[n]);
             }
     }
@@ -69,7 +73,8 @@ private:
         return cell;
     }
     std::size_t number(const std::array<int, 3>& c) const {
-        return (std::size_t(c[2]) * std::size_t(count_[1]) + std::size_t(c[1])) * std::size_t(count_[0]) + std::size_t(c[0]);
+        return (std::size_t(c[2]) * std::size_t(count_[1]) + std::size_t(c[1])) * std::size_t(count_[0]) +
+               std::size_t(c[0]);
     }
 
     Vec3 low_;

@@ -98,7 +98,7 @@ void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool pl
         }
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
                                     const LocalLength& reach, bool planar, const WallHint* wall) {
@@ -123,15 +123,18 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
             buckets.for_each_near(places[k], [&](std::uint32_t i) {
                 const Vec3 d = shortest(fluid.position[i] - places[k], frame) / own[k];
                 const double q2 = dot(d, d);
-                if (q2 < 1) data.push_back({d, kernel_weight(std::sqrt(q2)), fluid.velocity[i], fluid.pressure[i], true});
+                if (q2 < 1)
+                    data.push_back({d, kernel_weight(std::sqrt(q2)), fluid.velocity[i], fluid.pressure[i], true});
             });
             if (!wall_points.empty() && !data.empty())
                 surface.for_each_near(places[k], [&](std::uint32_t i) {
                     const Vec3 d = shortest(wall_points[i] - places[k], frame) / own[k];
                     const double weight = kernel_weight(norm(d));
-                    if (weight > 0) data.push_back({d, weight, wall->velocity ? wall->velocity(wall_points[i]) : Vec3{}, 0, false});
+                    if (weight > 0)
+                        data.push_back({d, weight, wall->velocity ? wall->velocity(wall_points[i]) : Vec3{}, 0, false});
                 });
-            else if (wall && !data.empty()) add_wall(data, places[k], own[k], planar, *wall);
+            else if (wall && !data.empty())
+                add_wall(data, places[k], own[k], planar, *wall);
             samples[k] = evaluate(data, planar, own[k]);
         }
     }
@@ -144,4 +147,4 @@ std::vector<Vec3> places_along(const Vec3& from, const Vec3& to, int count) {
     return places;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -24,9 +24,9 @@ struct FlowSample {
 /// Where the wall is, for samples near it: the distance (negative inside) and its gradient out of the blood, and the
 /// wall's velocity.
 struct WallHint {
-    std::function<double(const Vec3&)> distance;       ///< [m]
+    std::function<double(const Vec3&)> distance;   ///< [m]
     std::function<Vec3(const Vec3&)> normal;
-    std::function<Vec3(const Vec3&)> velocity;         ///< of the surface near a place [m/s]; empty: at rest
+    std::function<Vec3(const Vec3&)> velocity;   ///< of the surface near a place [m/s]; empty: at rest
     /// Points all over the surface, half of the reach apart or less, if somebody has them [m]. Else points near each place are found
     /// by distance and normal, which takes longer than all the rest.
     std::vector<Vec3> points{};
@@ -37,8 +37,7 @@ class LocalLength {
 public:
     LocalLength(double length) : at_([length](const Vec3&) { return length; }) {}
     template <class F>
-        requires std::is_invocable_r_v<double, F, const Vec3&>
-    LocalLength(F at) : at_(std::move(at)) {}
+    requires std::is_invocable_r_v<double, F, const Vec3&> LocalLength(F at) : at_(std::move(at)) {}
 
     double operator()(const Vec3& place) const { return at_(place); }
 
@@ -50,10 +49,10 @@ private:
 /// they are too few), weights of the Wendland kernel: exact for quadratic fields, third order. With a hint, places
 /// nearer to the wall than `reach` also see the wall's velocity, at points of the surface near them. `reach` is best 2h.
 /// Periodic frames are seen through.
-std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places, const LocalLength& reach,
-                                    bool planar, const WallHint* wall = nullptr);
+std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
+                                    const LocalLength& reach, bool planar, const WallHint* wall = nullptr);
 
 /// `count` places from one point to another, both included [m].
 std::vector<Vec3> places_along(const Vec3& from, const Vec3& to, int count);
 
-}  // namespace patency
+}   // namespace patency

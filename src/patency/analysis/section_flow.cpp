@@ -69,7 +69,8 @@ namespace {
 constexpr double slab_share = 0.75;   // of the reach, 2.6 spacings: two layers on both sides
 
 /// The flow through a section from the particles whose feet on its plane lie in its squares.
-double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const SectionGrid& grid, const LocalLength& reach) {
+double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const SectionGrid& grid,
+                         const LocalLength& reach) {
     SectionShape shape{{}, grid.normal, grid.total_area(), 0};
     for (std::size_t k = 0; k < grid.place.size(); ++k) shape.centre += grid.area[k] / shape.area * grid.place[k];
     const double slab = slab_share * reach(shape.centre), half_diagonal = std::sqrt(0.5) * grid.side;
@@ -80,7 +81,8 @@ double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const 
         shape.mean_square += grid.area[k] / shape.area * dot(d, d);
         buckets.for_each_near(grid.place[k], [&](std::uint32_t i) {
             const Vec3 e = fluid.position[i] - grid.place[k];
-            if (std::abs(dot(e, grid.normal)) < slab && norm(in_plane(e, grid.normal)) < half_diagonal) near.push_back(i);
+            if (std::abs(dot(e, grid.normal)) < slab && norm(in_plane(e, grid.normal)) < half_diagonal)
+                near.push_back(i);
         });
     }
     std::sort(near.begin(), near.end());
@@ -127,8 +129,8 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
 namespace {
 
 /// What is averaged of a section, in the order of a state.
-constexpr double SectionFlow::* averaged[] = {&SectionFlow::area, &SectionFlow::flow, &SectionFlow::pressure,
-                                              &SectionFlow::mean_velocity, &SectionFlow::peak_velocity};
+constexpr double SectionFlow::*averaged[] = {&SectionFlow::area, &SectionFlow::flow, &SectionFlow::pressure,
+                                             &SectionFlow::mean_velocity, &SectionFlow::peak_velocity};
 
 }   // namespace
 
@@ -137,7 +139,8 @@ void SectionFlowMeans::add(std::span<const SectionFlow> sections, double level) 
     for (std::size_t k = 0; k < sections.size(); ++k) {
         SectionFlow now = sections[k];
         now.pressure += level;
-        for (const auto member : averaged) sum_[k].*member += now.*member, squares_[k].*member += now.*member * now.*member;
+        for (const auto member : averaged)
+            sum_[k].*member += now.*member, squares_[k].*member += now.*member * now.*member;
     }
     ++instants_;
 }

@@ -26,7 +26,8 @@ int direction_of(double angle) {
 /// Mean radius by direction; those without a place lie on straight lines over the angle between those with one.
 std::array<double, directions> radii_of(const std::vector<StentPoint>& places) {
     std::array<double, directions> sum{}, count{}, radii{};
-    for (const StentPoint& p : places) sum[std::size_t(direction_of(p.angle))] += p.radius, count[std::size_t(direction_of(p.angle))] += 1;
+    for (const StentPoint& p : places)
+        sum[std::size_t(direction_of(p.angle))] += p.radius, count[std::size_t(direction_of(p.angle))] += 1;
     const auto next = [&](int from, int step) {
         int k = from;
         while (count[std::size_t((k % directions + directions) % directions)] == 0) k += step;
@@ -46,10 +47,14 @@ std::array<double, directions> radii_of(const std::vector<StentPoint>& places) {
 
 StentSlice measure_slice(double along, const std::vector<StentPoint>& places) {
     const std::array<double, directions> r = radii_of(places);
-    StentSlice slice{.along = along, .mean_diameter = 2 * std::accumulate(r.begin(), r.end(), 0.0) / directions, .least_diameter = Bounds::infinity, .most_diameter = 0,
+    StentSlice slice{.along = along,
+                     .mean_diameter = 2 * std::accumulate(r.begin(), r.end(), 0.0) / directions,
+                     .least_diameter = Bounds::infinity,
+                     .most_diameter = 0,
                      .area = 0};
     for (const StentPoint& p : places)
-        slice.least_diameter = std::min(slice.least_diameter, 2 * p.radius), slice.most_diameter = std::max(slice.most_diameter, 2 * p.radius);
+        slice.least_diameter = std::min(slice.least_diameter, 2 * p.radius),
+        slice.most_diameter = std::max(slice.most_diameter, 2 * p.radius);
     for (const double radius : r) slice.area += pi / directions * radius * radius;
     return slice;
 }
@@ -75,31 +80,49 @@ double radius_at(const StentProfile& shape, double along) {
 }   // namespace
 
 StentProfile measure_stent_profile(std::span<const StentPoint> outer, int slices) {
-    const auto [first, last] = std::minmax_element(outer.begin(), outer.end(), [](const auto& a, const auto& b) { return a.along < b.along; });
-    if (outer.empty() || slices < 1 || !(last->along > first->along)) throw GeometryError("A stent without a length has no measures.");
+    const auto [first, last] =
+        std::minmax_element(outer.begin(), outer.end(), [](const auto& a, const auto& b) { return a.along < b.along; });
+    if (outer.empty() || slices < 1 || !(last->along > first->along))
+        throw GeometryError("A stent without a length has no measures.");
     const double low = first->along, length = last->along - low;
     std::vector<std::vector<StentPoint>> places(static_cast<std::size_t>(slices));
-    for (const StentPoint& p : outer) places[std::min(std::size_t((p.along - low) / length * slices), places.size() - 1)].push_back(p);
-    StentProfile shape{.slices = {}, .length = length, .least_diameter = Bounds::infinity, .mean_diameter = 0, .most_diameter = 0, .least_area = Bounds::infinity,
-                     .end_diameter = 0, .middle_diameter = 0};
+    for (const StentPoint& p : outer)
+        places[std::min(std::size_t((p.along - low) / length * slices), places.size() - 1)].push_back(p);
+    StentProfile shape{.slices = {},
+                       .length = length,
+                       .least_diameter = Bounds::infinity,
+                       .mean_diameter = 0,
+                       .most_diameter = 0,
+                       .least_area = Bounds::infinity,
+                       .end_diameter = 0,
+                       .middle_diameter = 0};
     for (std::size_t k = 0; k < places.size(); ++k) {
-        if (places[k].size() < 3) throw GeometryError("A stent has fewer than three places in a slice of its length; take fewer slices.");
+        if (places[k].size() < 3)
+            throw GeometryError("A stent has fewer than three places in a slice of its length; take fewer slices.");
         shape.slices.push_back(measure_slice(low + length * (double(k) + 0.5) / slices, places[k]));
         const StentSlice& s = shape.slices.back();
-        shape.least_diameter = std::min(shape.least_diameter, s.mean_diameter), shape.most_diameter = std::max(shape.most_diameter, s.mean_diameter);
+        shape.least_diameter = std::min(shape.least_diameter, s.mean_diameter),
+        shape.most_diameter = std::max(shape.most_diameter, s.mean_diameter);
         shape.mean_diameter += s.mean_diameter / slices, shape.least_area = std::min(shape.least_area, s.area);
     }
     const double end = std::max(0.1, 1.0 / slices), half_middle = std::max(0.1, 0.6 / slices);
     shape.end_diameter = mean_diameter_where(shape.slices, [&](double at) { return at < end || at > 1 - end; });
-    shape.middle_diameter = mean_diameter_where(shape.slices, [&](double at) { return std::abs(at - 0.5) < half_middle; });
+    shape.middle_diameter =
+        mean_diameter_where(shape.slices, [&](double at) { return std::abs(at - 0.5) < half_middle; });
     return shape;
 }
 
-double recoil(double inflated_diameter, double deflated_diameter) { return (inflated_diameter - deflated_diameter) / inflated_diameter; }
+double recoil(double inflated_diameter, double deflated_diameter) {
+    return (inflated_diameter - deflated_diameter) / inflated_diameter;
+}
 
-double foreshortening(double length_before, double length_after) { return (length_before - length_after) / length_before; }
+double foreshortening(double length_before, double length_after) {
+    return (length_before - length_after) / length_before;
+}
 
-double dogboning(const StentProfile& shape) { return (shape.end_diameter - shape.middle_diameter) / shape.end_diameter; }
+double dogboning(const StentProfile& shape) {
+    return (shape.end_diameter - shape.middle_diameter) / shape.end_diameter;
+}
 
 double reach_to_wall(const SignedDistance& lumen, const Vec3& from, const Vec3& direction, double most) {
     double way = 0;
@@ -112,7 +135,8 @@ double reach_to_wall(const SignedDistance& lumen, const Vec3& from, const Vec3& 
     return most;
 }
 
-StrutFit measure_fit(std::span<const Vec3> places, std::span<const double> areas, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule) {
+StrutFit measure_fit(std::span<const Vec3> places, std::span<const double> areas, const StentAxis& axis,
+                     const SignedDistance& lumen, const ApposedRule& rule) {
     StrutFit fit{.gap = std::vector<double>(places.size()), .is_over_ostium = std::vector<char>(places.size())};
     for_each_index(places.size(), [&](std::size_t i) {
         fit.gap[i] = -lumen.value(places[i]);
@@ -135,7 +159,8 @@ StrutFit measure_fit(std::span<const Vec3> places, std::span<const double> areas
     return fit;
 }
 
-std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule) {
+std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis,
+                                            const SignedDistance& lumen, const ApposedRule& rule) {
     const double cell = pi * shape.mean_diameter / directions;
     const int rows = std::max(1, int(std::ceil(shape.length / cell)));
     const double low = shape.slices.front().along - 0.5 * shape.length / double(shape.slices.size());

@@ -22,11 +22,11 @@ struct StentSlice {
 /// A stent's outer measures.
 struct StentProfile {
     std::vector<StentSlice> slices;
-    double length;                             ///< over all [m]
+    double length;                                         ///< over all [m]
     double least_diameter, mean_diameter, most_diameter;   ///< of the slices' mean diameters [m]
-    double least_area;                         ///< of the slices [m^2]
-    double end_diameter;                       ///< mean of the slices in the last tenths of both ends [m]
-    double middle_diameter;                    ///< mean of those in the middle fifth [m]
+    double least_area;                                     ///< of the slices [m^2]
+    double end_diameter;                                   ///< mean of the slices in the last tenths of both ends [m]
+    double middle_diameter;                                ///< mean of those in the middle fifth [m]
 };
 
 /// Of places on the outer faces of struts, as many slices as asked for. In a slice radii between struts are interpolated over the angle.
@@ -42,29 +42,30 @@ double dogboning(const StentProfile& shape);   ///< (ends - middle) / ends
 double reach_to_wall(const SignedDistance& lumen, const Vec3& from, const Vec3& unit_direction, double most);
 
 struct ApposedRule {
-    double largest_gap = 1e-4;      ///< between a strut's outer face and the wall [m]: more is malapposed
-    double ostium_reach = 2;        ///< over the radius of the stent there: a wall farther out is that of a side branch
+    double largest_gap = 1e-4;   ///< between a strut's outer face and the wall [m]: more is malapposed
+    double ostium_reach = 2;     ///< over the radius of the stent there: a wall farther out is that of a side branch
 };
 
 /// How the struts sit in the lumen, per place.
 struct StrutFit {
-    std::vector<double> gap;           ///< to the nearest wall [m]; negative: beyond it
-    std::vector<char> is_over_ostium;  ///< looks into a side branch
-    double malapposed = 0;             ///< share of the outer area that is not over an ostium
-    double largest_gap = 0;            ///< [m], not over an ostium
-    double over_ostia = 0;             ///< outer area of struts over ostia [m^2]
+    std::vector<double> gap;            ///< to the nearest wall [m]; negative: beyond it
+    std::vector<char> is_over_ostium;   ///< looks into a side branch
+    double malapposed = 0;              ///< share of the outer area that is not over an ostium
+    double largest_gap = 0;             ///< [m], not over an ostium
+    double over_ostia = 0;              ///< outer area of struts over ostia [m^2]
 };
 /// `places` on the outer faces [m] with the area of each [m^2].
-StrutFit measure_fit(std::span<const Vec3> places, std::span<const double> areas, const StentAxis& axis, const SignedDistance& lumen,
-                     const ApposedRule& rule = {});
+StrutFit measure_fit(std::span<const Vec3> places, std::span<const double> areas, const StentAxis& axis,
+                     const SignedDistance& lumen, const ApposedRule& rule = {});
 
 /// The opening of a side branch that the stent lies in front of.
 struct JailedOstium {
-    Vec3 centre;    ///< on the stent's outer face [m]
-    double area;    ///< of that face in front of it [m^2]
+    Vec3 centre;   ///< on the stent's outer face [m]
+    double area;   ///< of that face in front of it [m^2]
 };
 /// By rays from the axis on a grid of the stent's outer face; smaller ones than a hundredth of the stent's cross-section do not count.
-std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis, const SignedDistance& lumen, const ApposedRule& rule = {});
+std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis,
+                                            const SignedDistance& lumen, const ApposedRule& rule = {});
 
 /// The value below which this share of the weight lies; 0 of nothing.
 double weighted_percentile(std::span<const double> values, std::span<const double> weights, double share);

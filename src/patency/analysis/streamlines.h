@@ -17,10 +17,10 @@ struct Streamline {
 };
 
 struct StreamlineRule {
-    LocalLength step;             ///< length from a place to the next [m]
-    double longest;         ///< [m]
-    double slowest;         ///< a line ends where the blood is slower [m/s]
-    LocalLength reach;            ///< of samples
+    LocalLength step;                             ///< length from a place to the next [m]
+    double longest;                               ///< [m]
+    double slowest;                               ///< a line ends where the blood is slower [m/s]
+    LocalLength reach;                            ///< of samples
     std::function<bool(const Vec3&)> is_inside;   ///< a line ends where this is false
 };
 

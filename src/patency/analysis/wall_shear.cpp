@@ -11,8 +11,8 @@
 namespace patency {
 
 WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
-                                    const LocalLength& reach, const WallHint& wall,
-                                    const std::function<double(double)>& viscosity_at) {
+                      const LocalLength& reach, const WallHint& wall,
+                      const std::function<double(double)>& viscosity_at) {
     const auto samples = sample_flow(fluid, frame, places.position, reach, false, &wall);
     WallFlow flow{std::vector<Vec3>(samples.size()), std::vector<double>(samples.size())};
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -32,7 +32,8 @@ WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const Wal
 
 WallFlow flow_of_parts(const WallParts& parts, const WallPlaces& places, const LocalLength& reach) {
     const PointTree tree(parts.places.position);
-    WallFlow flow{std::vector<Vec3>(places.position.size(), {NAN, NAN, NAN}), std::vector<double>(places.position.size(), NAN)};
+    WallFlow flow{std::vector<Vec3>(places.position.size(), {NAN, NAN, NAN}),
+                  std::vector<double>(places.position.size(), NAN)};
     for_each_index(places.position.size(), [&](std::size_t k) {
         const Vec3 &x = places.position[k], &n = places.normal[k];
         const double radius = reach(x);

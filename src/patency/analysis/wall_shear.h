@@ -27,13 +27,13 @@ struct WallFlow {
 /// where no blood is within reach. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
 /// Pressures are fitted to the blood alone.
 WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
-                                    const LocalLength& reach, const WallHint& wall,
-                                    const std::function<double(double)>& viscosity_at);
+                      const LocalLength& reach, const WallHint& wall,
+                      const std::function<double(double)>& viscosity_at);
 
 /// What a scheme says itself of small parts of a wall.
 struct WallParts {
-    WallPlaces places;         ///< their middles
-    std::vector<double> area;  ///< [m^2]
+    WallPlaces places;          ///< their middles
+    std::vector<double> area;   ///< [m^2]
     WallFlow flow;
 };
 

@@ -57,4 +57,4 @@ private:
     std::size_t size_ = 0, capacity_ = 0;
 };
 
-}  // namespace patency
+}   // namespace patency

@@ -51,4 +51,4 @@ struct CheckpointError : Error {
     explicit CheckpointError(const std::string& s) : Error(ExitCode::checkpoint, s) {}
 };
 
-}  // namespace patency
+}   // namespace patency

@@ -12,8 +12,10 @@ namespace patency {
 /// A parameter, as the number type of the values it meets: a number or a pack of it.
 template <class T>
 PATENCY_INLINE T number(double value) {
-    if constexpr (std::is_arithmetic_v<T>) return T(value);
-    else return T(typename T::Scalar(value));
+    if constexpr (std::is_arithmetic_v<T>)
+        return T(value);
+    else
+        return T(typename T::Scalar(value));
 }
 
 namespace detail {

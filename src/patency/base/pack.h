@@ -28,20 +28,58 @@ inline constexpr int native_lanes = register_bytes / int(sizeof(T));
 
 namespace detail {
 // Explicit types: a vector_size typedef that depends on template arguments is a scalar to g++ 12's overloading.
-template <class T, int lanes> struct Register;
-template <> struct Register<float, 4> { typedef float type __attribute__((vector_size(16))); };
-template <> struct Register<float, 8> { typedef float type __attribute__((vector_size(32))); };
-template <> struct Register<float, 16> { typedef float type __attribute__((vector_size(64))); };
-template <> struct Register<double, 2> { typedef double type __attribute__((vector_size(16))); };
-template <> struct Register<double, 4> { typedef double type __attribute__((vector_size(32))); };
-template <> struct Register<double, 8> { typedef double type __attribute__((vector_size(64))); };
-template <> struct Register<std::uint32_t, 4> { typedef std::uint32_t type __attribute__((vector_size(16))); };
-template <> struct Register<std::uint32_t, 8> { typedef std::uint32_t type __attribute__((vector_size(32))); };
-template <> struct Register<std::uint32_t, 16> { typedef std::uint32_t type __attribute__((vector_size(64))); };
-template <int lanes> struct IntRegister;
-template <> struct IntRegister<4> { typedef std::int32_t type __attribute__((vector_size(16))); };
-template <> struct IntRegister<8> { typedef std::int32_t type __attribute__((vector_size(32))); };
-template <> struct IntRegister<16> { typedef std::int32_t type __attribute__((vector_size(64))); };
+template <class T, int lanes>
+struct Register;
+template <>
+struct Register<float, 4> {
+    typedef float type __attribute__((vector_size(16)));
+};
+template <>
+struct Register<float, 8> {
+    typedef float type __attribute__((vector_size(32)));
+};
+template <>
+struct Register<float, 16> {
+    typedef float type __attribute__((vector_size(64)));
+};
+template <>
+struct Register<double, 2> {
+    typedef double type __attribute__((vector_size(16)));
+};
+template <>
+struct Register<double, 4> {
+    typedef double type __attribute__((vector_size(32)));
+};
+template <>
+struct Register<double, 8> {
+    typedef double type __attribute__((vector_size(64)));
+};
+template <>
+struct Register<std::uint32_t, 4> {
+    typedef std::uint32_t type __attribute__((vector_size(16)));
+};
+template <>
+struct Register<std::uint32_t, 8> {
+    typedef std::uint32_t type __attribute__((vector_size(32)));
+};
+template <>
+struct Register<std::uint32_t, 16> {
+    typedef std::uint32_t type __attribute__((vector_size(64)));
+};
+template <int lanes>
+struct IntRegister;
+template <>
+struct IntRegister<4> {
+    typedef std::int32_t type __attribute__((vector_size(16)));
+};
+template <>
+struct IntRegister<8> {
+    typedef std::int32_t type __attribute__((vector_size(32)));
+};
+template <>
+struct IntRegister<16> {
+    typedef std::int32_t type __attribute__((vector_size(64)));
+};
 
 // Roots and fused products have no operator, and a loop over lanes would be left as single steps: by hand for every register.
 // Registers that the processor lacks go lane by lane. In place, for they are no values that a function may return.
@@ -88,7 +126,7 @@ PATENCY_INLINE void take_smaller(__m512d& a, const __m512d& b) { a = _mm512_mask
 PATENCY_INLINE void fuse(__m512& a, const __m512& b, const __m512& c) { a = _mm512_fmadd_ps(a, b, c); }
 PATENCY_INLINE void fuse(__m512d& a, const __m512d& b, const __m512d& c) { a = _mm512_fmadd_pd(a, b, c); }
 #endif
-}  // namespace detail
+}   // namespace detail
 
 template <class T, int W = native_lanes<T>>
 struct Pack {
@@ -100,7 +138,11 @@ struct Pack {
     Pack() = default;
     PATENCY_INLINE Pack(T s) : v(s - Register{}) {}   // x - 0 is x, also for -0
     PATENCY_INLINE explicit Pack(Register r) : v(r) {}
-    PATENCY_INLINE static Pack load(const T* p) { Pack r; std::memcpy(&r.v, p, sizeof r.v); return r; }
+    PATENCY_INLINE static Pack load(const T* p) {
+        Pack r;
+        std::memcpy(&r.v, p, sizeof r.v);
+        return r;
+    }
     PATENCY_INLINE void store(T* p) const { std::memcpy(p, &v, sizeof v); }
     PATENCY_INLINE T operator[](int lane) const { return v[lane]; }
 
@@ -109,14 +151,35 @@ struct Pack {
     PATENCY_INLINE friend Pack operator-(Pack a) { return Pack(-a.v); }
     PATENCY_INLINE friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
     PATENCY_INLINE friend Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
-    PATENCY_INLINE Pack& operator+=(Pack b) { v += b.v; return *this; }
-    PATENCY_INLINE Pack& operator-=(Pack b) { v -= b.v; return *this; }
-    PATENCY_INLINE Pack& operator*=(Pack b) { v *= b.v; return *this; }
-    PATENCY_INLINE friend Pack max(Pack a, Pack b) { detail::take_larger(a.v, b.v); return a; }
-    PATENCY_INLINE friend Pack min(Pack a, Pack b) { detail::take_smaller(a.v, b.v); return a; }
-    PATENCY_INLINE friend Pack sqrt(Pack a) { detail::take_root(a.v); return a; }
+    PATENCY_INLINE Pack& operator+=(Pack b) {
+        v += b.v;
+        return *this;
+    }
+    PATENCY_INLINE Pack& operator-=(Pack b) {
+        v -= b.v;
+        return *this;
+    }
+    PATENCY_INLINE Pack& operator*=(Pack b) {
+        v *= b.v;
+        return *this;
+    }
+    PATENCY_INLINE friend Pack max(Pack a, Pack b) {
+        detail::take_larger(a.v, b.v);
+        return a;
+    }
+    PATENCY_INLINE friend Pack min(Pack a, Pack b) {
+        detail::take_smaller(a.v, b.v);
+        return a;
+    }
+    PATENCY_INLINE friend Pack sqrt(Pack a) {
+        detail::take_root(a.v);
+        return a;
+    }
     /// a b + c with one rounding.
-    PATENCY_INLINE friend Pack fma(Pack a, Pack b, Pack c) { detail::fuse(a.v, b.v, c.v); return a; }
+    PATENCY_INLINE friend Pack fma(Pack a, Pack b, Pack c) {
+        detail::fuse(a.v, b.v, c.v);
+        return a;
+    }
 };
 
 // The same words for scalars, so that a law reads the same for both.
@@ -144,9 +207,12 @@ namespace detail {
 PATENCY_INLINE Quads<Pack<float, 16>> load_quads(const Quad<float>* base, const std::uint32_t* index) {
     const auto at = [&](int k) { return _mm_load_ps(&base[index[k]].a); };
     // Joined from halves: where a register is worked on in two goes, a quarter put into all of it costs twice one put into a half.
-    const auto half = [&](int k) { return _mm256_castps_pd(_mm256_insertf128_ps(_mm256_castps128_ps256(at(k)), at(k + 4), 1)); };
+    const auto half = [&](int k) {
+        return _mm256_castps_pd(_mm256_insertf128_ps(_mm256_castps128_ps256(at(k)), at(k + 4), 1));
+    };
     __m512 z[4];
-    for (int k = 0; k < 4; ++k) z[k] = _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castpd256_pd512(half(k)), half(k + 8), 1));
+    for (int k = 0; k < 4; ++k)
+        z[k] = _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castpd256_pd512(half(k)), half(k + 8), 1));
     const __m512 lo01 = _mm512_unpacklo_ps(z[0], z[1]), hi01 = _mm512_unpackhi_ps(z[0], z[1]);
     const __m512 lo23 = _mm512_unpacklo_ps(z[2], z[3]), hi23 = _mm512_unpackhi_ps(z[2], z[3]);
     const auto low = [](__m512 p, __m512 q) {
@@ -192,7 +258,7 @@ PATENCY_INLINE Quads<Pack<double, 4>> load_quads(const Quad<double>* base, const
             P(_mm256_permute2f128_pd(ac01, ac23, 0x31)), P(_mm256_permute2f128_pd(bd01, bd23, 0x31))};
 }
 #endif
-}  // namespace detail
+}   // namespace detail
 
 /// The quads of the particles index[0 .. lanes).
 template <class T, int W>
@@ -235,8 +301,9 @@ PATENCY_INLINE void load_whole(const std::int16_t* from, Pack<float, W>& to) {
     typedef std::int16_t Short __attribute__((vector_size(2 * W)));
     Short whole;
     std::memcpy(&whole, from, sizeof whole);
-    to.v = __builtin_convertvector(__builtin_convertvector(whole, typename detail::IntRegister<W>::type), typename Pack<float, W>::Register);
+    to.v = __builtin_convertvector(__builtin_convertvector(whole, typename detail::IntRegister<W>::type),
+                                   typename Pack<float, W>::Register);
 }
 PATENCY_INLINE void load_whole(const std::int16_t* from, float& to) { to = float(*from); }
 
-}  // namespace patency
+}   // namespace patency

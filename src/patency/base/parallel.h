@@ -11,7 +11,8 @@
 
 namespace patency {
 
-inline constexpr std::size_t block_size = 1024;   // particles per task: small enough to balance, large enough to be cheap
+inline constexpr std::size_t block_size =
+    1024;   // particles per task: small enough to balance, large enough to be cheap
 
 /// body(begin, end) for consecutive blocks of [0, count). Blocks may run in any order and on any thread.
 template <class Body>
@@ -65,4 +66,4 @@ double largest_of(std::size_t count, Value value) {
     return reduce(count, 0.0, value, [](double a, double b) { return a > b ? a : b; });
 }
 
-}  // namespace patency
+}   // namespace patency

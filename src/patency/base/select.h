@@ -26,7 +26,7 @@ inline constexpr auto chosen_of_eight = [] {
     return table;
 }();
 #endif
-}  // namespace detail
+}   // namespace detail
 
 /// The lanes in which a < b, as bits.
 template <int W>
@@ -89,17 +89,22 @@ PATENCY_INLINE Pack<float, W> load_difference(const std::int32_t* a, std::int32_
 
 /// Puts rows side by side: out[k lanes + l] = rows[l][k] for k < count, where lanes is the number of rows. Goes four k at
 /// a time: rows and out have room up to the next multiple of four.
-inline void store_side_by_side(std::span<const std::vector<std::uint32_t>> rows, std::size_t count, std::uint32_t* out) {
+inline void store_side_by_side(std::span<const std::vector<std::uint32_t>> rows, std::size_t count,
+                               std::uint32_t* out) {
     typedef std::uint32_t Four __attribute__((vector_size(16)));
     const auto low = [](Four a, Four b) { return __builtin_shufflevector(a, b, 0, 4, 1, 5); };
     const auto high = [](Four a, Four b) { return __builtin_shufflevector(a, b, 2, 6, 3, 7); };
-    const auto load = [](const std::uint32_t* from) { Four v; std::memcpy(&v, from, sizeof v); return v; };
+    const auto load = [](const std::uint32_t* from) {
+        Four v;
+        std::memcpy(&v, from, sizeof v);
+        return v;
+    };
     const auto store = [](std::uint32_t* to, Four v) { std::memcpy(to, &v, sizeof v); };
     const std::size_t lanes = rows.size();
     std::size_t l = 0;
     for (; l + 4 <= lanes; l += 4) {   // squares of four by four, turned in registers
-        const std::uint32_t *a = rows[l].data(), *b = rows[l + 1].data(),
-                            *c = rows[l + 2].data(), *d = rows[l + 3].data();
+        const std::uint32_t *a = rows[l].data(), *b = rows[l + 1].data(), *c = rows[l + 2].data(),
+                            *d = rows[l + 3].data();
         std::uint32_t* to = out + l;
         for (std::size_t k = 0; k < count; k += 4, to += 4 * lanes) {
             const Four ac_low = low(load(a + k), load(c + k)), ac_high = high(load(a + k), load(c + k));
@@ -114,4 +119,4 @@ inline void store_side_by_side(std::span<const std::vector<std::uint32_t>> rows,
         for (std::size_t k = 0; k < count; ++k) out[k * lanes + l] = rows[l][k];
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -22,7 +22,7 @@ std::size_t utf8_length(unsigned char first) {
 
 bool is_continuation(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-}  // namespace
+}   // namespace
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view space = " \t\r\n";
@@ -124,4 +124,4 @@ std::string nearest_name(std::string_view word, std::span<const std::string> can
     return nearest;
 }
 
-}  // namespace patency
+}   // namespace patency

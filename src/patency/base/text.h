@@ -38,4 +38,4 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// (at least one). The empty string if none is so near.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 
-}  // namespace patency
+}   // namespace patency

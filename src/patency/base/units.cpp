@@ -106,11 +106,21 @@ constexpr std::array<DimensionText, 17> dimension_texts{{
 
 // What people and their word processors type for the same sign.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 16> same_signs{{
-    {"\u00b5", "u"}, {"\u03bc", "u"},                                       // micro sign, Greek mu
-    {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u2075", "^5"}, {"\u207f", "^n"}, // superscripts
-    {"\u00b7", " "}, {"\u22c5", " "}, {"\u2219", " "}, {"*", " "},          // products
-    {"\u2044", "/"}, {"\u2215", "/"},                                       // fraction slash, division slash
-    {"\u00a0", " "}, {"\u2009", " "}, {"\u202f", " "},                      // no-break and thin spaces
+    {"\u00b5", "u"},
+    {"\u03bc", "u"},   // micro sign, Greek mu
+    {"\u00b2", "^2"},
+    {"\u00b3", "^3"},
+    {"\u2075", "^5"},
+    {"\u207f", "^n"},   // superscripts
+    {"\u00b7", " "},
+    {"\u22c5", " "},
+    {"\u2219", " "},
+    {"*", " "},   // products
+    {"\u2044", "/"},
+    {"\u2215", "/"},   // fraction slash, division slash
+    {"\u00a0", " "},
+    {"\u2009", " "},
+    {"\u202f", " "},   // no-break and thin spaces
     {"\u00b0", "deg"},
 }};
 
@@ -141,8 +151,10 @@ std::string canonical_spelling(std::string_view spelling) {
             space = true;
             continue;
         }
-        if (space && is_letter(c) && last != '/' && last != '(' && last != '^') result += ' ';
-        else if (!space && is_digit(c) && is_letter(last)) result += '^';
+        if (space && is_letter(c) && last != '/' && last != '(' && last != '^')
+            result += ' ';
+        else if (!space && is_digit(c) && is_letter(last))
+            result += '^';
         space = false;
         result += c;
     }
@@ -194,7 +206,7 @@ double round_digits(double value, int digits) {
     return rounded;
 }
 
-}  // namespace
+}   // namespace
 
 std::span<const Unit> units() { return table; }
 
@@ -255,7 +267,8 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
         throw DeckError("there is no unit " + double_quoted(shortened(spelling)) +
                         (near.empty() ? "" : ". Did you mean " + double_quoted(near) + "?") + "; " + needed);
     }
-    if (unit->dimension != dimension) throw DeckError(shown + " is " + dimension_phrase(unit->dimension) + "; " + needed);
+    if (unit->dimension != dimension)
+        throw DeckError(shown + " is " + dimension_phrase(unit->dimension) + "; " + needed);
     const double si = to_si(parts.value, *unit);
     if (!std::isfinite(si)) throw DeckError(shown + " is beyond the range of numbers; " + needed);
     return si;
@@ -298,7 +311,8 @@ std::string quantity_pattern(Dimension dimension) {
                     const char power = spelling[++i];
                     alternatives.append("(\\^?").append(1, power);
                     for (const auto& [typed, meant] : same_signs)
-                        if (meant.size() == 2 && meant[0] == '^' && meant[1] == power) alternatives.append("|").append(typed);
+                        if (meant.size() == 2 && meant[0] == '^' && meant[1] == power)
+                            alternatives.append("|").append(typed);
                     alternatives += ')';
                 } else if (c == 'u' && spelling == "um") {
                     alternatives += "(u|\u00b5|\u03bc)";
@@ -318,4 +332,4 @@ std::string quantity_pattern(Dimension dimension) {
     return "^\\s*[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*(" + alternatives + ")\\s*$";
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -12,23 +12,23 @@
 namespace patency {
 
 enum class Dimension {
-    number,        ///< no unit
-    length,        ///< m
-    area,          ///< m^2
-    time,          ///< s
-    velocity,      ///< m/s
-    acceleration,  ///< m/s^2
-    mass,          ///< kg
-    density,       ///< kg/m^3
-    pressure,      ///< Pa; stresses too
-    stiffness,     ///< Pa/m, of a bedding
-    viscosity,     ///< Pa s
-    consistency,   ///< Pa s^n, of a power law
-    flow,          ///< m^3/s; m^2/s in planar cases, per metre of depth
-    resistance,    ///< Pa s/m^3
-    compliance,    ///< m^3/Pa
-    frequency,     ///< Hz
-    angle,         ///< rad
+    number,         ///< no unit
+    length,         ///< m
+    area,           ///< m^2
+    time,           ///< s
+    velocity,       ///< m/s
+    acceleration,   ///< m/s^2
+    mass,           ///< kg
+    density,        ///< kg/m^3
+    pressure,       ///< Pa; stresses too
+    stiffness,      ///< Pa/m, of a bedding
+    viscosity,      ///< Pa s
+    consistency,    ///< Pa s^n, of a power law
+    flow,           ///< m^3/s; m^2/s in planar cases, per metre of depth
+    resistance,     ///< Pa s/m^3
+    compliance,     ///< m^3/Pa
+    frequency,      ///< Hz
+    angle,          ///< rad
 };
 
 /// A unit: SI = number * numerator / denominator. Two factors, because both are exact decimals while
@@ -74,4 +74,4 @@ double in_unit(double si, std::string_view unit);
 /// A regular expression (ECMAScript) for the texts parse_quantity accepts for this dimension.
 std::string quantity_pattern(Dimension dimension);
 
-}  // namespace patency
+}   // namespace patency

@@ -19,9 +19,24 @@ struct Vec {
     friend constexpr Vec operator*(const T& s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
     friend constexpr Vec operator*(const Vec& a, const T& s) { return {s * a.x, s * a.y, s * a.z}; }
     friend constexpr Vec operator/(const Vec& a, const T& s) { return {a.x / s, a.y / s, a.z / s}; }
-    constexpr Vec& operator+=(const Vec& b) { x += b.x; y += b.y; z += b.z; return *this; }
-    constexpr Vec& operator-=(const Vec& b) { x -= b.x; y -= b.y; z -= b.z; return *this; }
-    constexpr Vec& operator*=(const T& s) { x *= s; y *= s; z *= s; return *this; }
+    constexpr Vec& operator+=(const Vec& b) {
+        x += b.x;
+        y += b.y;
+        z += b.z;
+        return *this;
+    }
+    constexpr Vec& operator-=(const Vec& b) {
+        x -= b.x;
+        y -= b.y;
+        z -= b.z;
+        return *this;
+    }
+    constexpr Vec& operator*=(const T& s) {
+        x *= s;
+        y *= s;
+        z *= s;
+        return *this;
+    }
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
@@ -59,7 +74,12 @@ struct Mat {
                 {dot(a.y, bt.x), dot(a.y, bt.y), dot(a.y, bt.z)},
                 {dot(a.z, bt.x), dot(a.z, bt.y), dot(a.z, bt.z)}};
     }
-    constexpr Mat& operator+=(const Mat& b) { x += b.x; y += b.y; z += b.z; return *this; }
+    constexpr Mat& operator+=(const Mat& b) {
+        x += b.x;
+        y += b.y;
+        z += b.z;
+        return *this;
+    }
     friend constexpr Mat transpose(const Mat& a) {
         return {{a.x.x, a.y.x, a.z.x}, {a.x.y, a.y.y, a.z.y}, {a.x.z, a.y.z, a.z.z}};
     }
@@ -87,4 +107,4 @@ constexpr Mat<T> inverse(const Mat<T>& a) {
 using Vec3 = Vec<double>;
 using Mat3 = Mat<double>;
 
-}  // namespace patency
+}   // namespace patency

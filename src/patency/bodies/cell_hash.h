@@ -15,7 +15,8 @@ struct CellHash {
     std::int64_t index(double x) const { return std::int64_t(std::floor(x / side)); }
     /// Different for cubes within 2^20 of each other on every axis.
     static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
-        return (std::uint64_t(i) & 0x1fffff) << 42 | (std::uint64_t(j) & 0x1fffff) << 21 | (std::uint64_t(k) & 0x1fffff);
+        return (std::uint64_t(i) & 0x1fffff) << 42 | (std::uint64_t(j) & 0x1fffff) << 21 |
+               (std::uint64_t(k) & 0x1fffff);
     }
 };
 

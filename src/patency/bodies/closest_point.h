@@ -19,7 +19,8 @@ inline std::array<double, 3> closest_on_segment(const Vec3& x, const Vec3& a, co
 /// By the region of the plane (or of an edge, or a corner) that x lies over (Ericson 2004, section 5.1.5).
 inline std::array<double, 3> closest_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
-    const double d1 = dot(ab, ax), d2 = dot(ac, ax), d3 = dot(ab, bx), d4 = dot(ac, bx), d5 = dot(ab, cx), d6 = dot(ac, cx);
+    const double d1 = dot(ab, ax), d2 = dot(ac, ax), d3 = dot(ab, bx), d4 = dot(ac, bx), d5 = dot(ab, cx),
+                 d6 = dot(ac, cx);
     if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
     if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
     if (d6 >= 0 && d5 <= d6) return {0, 0, 1};

@@ -15,15 +15,16 @@ namespace {
 
 /// Where a vertex that is in would come out, or one that is out would go in.
 struct Hit {
-    double depth = 0;                 ///< [m]; negative: it is out by that; zero: nothing is near
-    Vec3 normal;                      ///< of the way out
+    double depth = 0;   ///< [m]; negative: it is out by that; zero: nothing is near
+    Vec3 normal;        ///< of the way out
     std::uint32_t element = 0;
     std::array<double, 3> weights{};   ///< of the element's corners
 };
 
 /// A vertex of one surface against the elements of another, the depth negative outside; clearance: how far it is from them at least, if it is not in.
 ///                                                                                             THEORY (21.5)
-Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search, double& clearance) {
+Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search,
+             double& clearance) {
     const Vec3& x = own.position[vertex];
     const auto& mesh = other.mesh();
     double nearest = search.reach(), side = 0;
@@ -52,21 +53,24 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
 
 /// What a vertex feels that is in, and what that costs.
 struct Touch {
-    Vec3 force;                                             // [N]
-    double push = 0, damper = 0, approach = 0, energy = 0;  // N, N, m/s before the step, J
-    double friction_loss = 0;                               // in this step [J]
+    Vec3 force;                                              // [N]
+    double push = 0, damper = 0, approach = 0, energy = 0;   // N, N, m/s before the step, J
+    double friction_loss = 0;                                // in this step [J]
 };
 
 /// What a damper took in the step before, at the mean of the velocities before and after it: what it took indeed. [J]
-double damping_loss(const Touch& then, double approach_now, double step) { return 0.5 * step * then.damper * (then.approach + approach_now); }
-
+double damping_loss(const Touch& then, double approach_now, double step) {
+    return 0.5 * step * then.damper * (then.approach + approach_now);
+}
 
 /// held: of the push, beside the spring's [N]; velocity: against what it touches [m/s]; stick: before the step, then after it [m].
 ///                                                                                     THEORY (21.8), (21.9), (21.11)
-Touch touch(const ContactNumerics& numerics, double stiffness, double depth, double held, const Vec3& normal, const Vec3& velocity, double dt, Vec3& stick) {
+Touch touch(const ContactNumerics& numerics, double stiffness, double depth, double held, const Vec3& normal,
+            const Vec3& velocity, double dt, Vec3& stick) {
     const double approach = -dot(velocity, normal);
     const NormalPush push = normal_push(stiffness, depth + held / stiffness, approach, numerics.damping, numerics.step);
-    Touch result{push.force * normal, push.force, push.damper, approach, 0.5 * stiffness * std::max(0.0, depth) * depth, 0};
+    Touch result{
+        push.force * normal, push.force, push.damper, approach, 0.5 * stiffness * std::max(0.0, depth) * depth, 0};
     if (numerics.friction > 0) {
         const FrictionState f = friction(stick, dt * velocity, normal, push.force, stiffness, numerics.friction);
         stick = f.stick;
@@ -105,8 +109,17 @@ private:
 class Pass {
 public:
     Pass(SolidSurface& own, SolidSurface& other, const ContactNumerics& numerics)
-        : own_(own), other_(other), numerics_(numerics), search_(own, other), stick_(own.size()), held_(own.size()), hits_(own.size()),
-          is_in_(own.size()), free_(own.size()), touches_(own.size()), losses_(own.size()) {
+        : own_(own),
+          other_(other),
+          numerics_(numerics),
+          search_(own, other),
+          stick_(own.size()),
+          held_(own.size()),
+          hits_(own.size()),
+          is_in_(own.size()),
+          free_(own.size()),
+          touches_(own.size()),
+          losses_(own.size()) {
         for (std::size_t v = 0; v < other.size(); ++v) lightest_ = std::min(lightest_, other.mass(v));
     }
 
@@ -127,8 +140,10 @@ public:
             const bool is_in = hit.depth > 0 || (hit.depth < 0 && stiffness(v) * hit.depth + held_[v] > 0);
             if (!is_in && !is_in_[v]) return;   // most of them: nothing changes
             is_in_[v] = is_in;
-            if (is_in) hits_[v] = hit, touches_[v] = touch_at(v, dt);
-            else hits_[v] = {}, touches_[v] = {}, stick_[v] = {}, held_[v] = 0;
+            if (is_in)
+                hits_[v] = hit, touches_[v] = touch_at(v, dt);
+            else
+                hits_[v] = {}, touches_[v] = {}, stick_[v] = {}, held_[v] = 0;
         });
         for (std::size_t v = 0; v < own_.size(); ++v) {   // few, in one order: reactions meet at vertices
             if (!is_in_[v]) continue;
@@ -156,7 +171,8 @@ public:
         for (std::size_t v = 0; v < own_.size(); ++v) {
             const Hit& hit = hits_[v];
             if (hit.depth == 0) continue;
-            if (is_first) pushes.push_back({std::uint32_t(v), touches_[v].force});
+            if (is_first)
+                pushes.push_back({std::uint32_t(v), touches_[v].force});
             else
                 for (std::size_t k = 0; k < (other_.planar() ? 2u : 3u); ++k)
                     pushes.push_back({other_.mesh().elements[hit.element][k], -hit.weights[k] * touches_[v].force});
@@ -167,7 +183,8 @@ public:
         for (const double x : {friction_loss_, damping_loss_, deepest_, last_step_}) state.add(x);
         for (std::size_t v = 0; v < own_.size(); ++v) {
             const Hit& hit = hits_[v];
-            state.add(stick_[v]), state.add(held_[v]), state.add(hit.depth), state.add(hit.normal), state.add(double(hit.element));
+            state.add(stick_[v]), state.add(held_[v]), state.add(hit.depth), state.add(hit.normal),
+                state.add(double(hit.element));
             for (const double w : hit.weights) state.add(w);
             const Touch& t = touches_[v];
             state.add(t.force);
@@ -178,7 +195,8 @@ public:
         for (double* x : {&friction_loss_, &damping_loss_, &deepest_, &last_step_}) *x = state.next();
         for (std::size_t v = 0; v < own_.size(); ++v) {
             Hit& hit = hits_[v];
-            stick_[v] = state.next_vector(), held_[v] = state.next(), hit.depth = state.next(), hit.normal = state.next_vector(), hit.element = std::uint32_t(state.next());
+            stick_[v] = state.next_vector(), held_[v] = state.next(), hit.depth = state.next(),
+            hit.normal = state.next_vector(), hit.element = std::uint32_t(state.next());
             for (double& w : hit.weights) w = state.next();
             is_in_[v] = hit.depth != 0;
             Touch& t = touches_[v];
@@ -205,7 +223,9 @@ private:
     double approach(std::size_t v) const { return -dot(velocity(v), hits_[v].normal); }
 
     /// With the other's lightest vertex: a mass that changed with the place on it would do work.
-    double stiffness(std::size_t v) const { return penalty_stiffness(1 / (1 / own_.mass(v) + 1 / lightest_), numerics_.step); }
+    double stiffness(std::size_t v) const {
+        return penalty_stiffness(1 / (1 / own_.mass(v) + 1 / lightest_), numerics_.step);
+    }
 
     Touch touch_at(std::size_t v, double dt) {
         const Hit& hit = hits_[v];
@@ -262,12 +282,17 @@ private:
 
 }   // namespace
 
-std::unique_ptr<Contact> make_surface_contact(SolidSurface& first, SolidSurface& second, const ContactNumerics& numerics) {
+std::unique_ptr<Contact> make_surface_contact(SolidSurface& first, SolidSurface& second,
+                                              const ContactNumerics& numerics) {
     return std::make_unique<SurfaceContact>(first, second, numerics);
 }
 
 RigidContact::RigidContact(SolidSurface& surface, HitOf hit_of, const ContactNumerics& numerics)
-    : surface_(surface), hit_of_(std::move(hit_of)), numerics_(numerics), stick_(surface.size()), touches_(surface.size()) {}
+    : surface_(surface),
+      hit_of_(std::move(hit_of)),
+      numerics_(numerics),
+      stick_(surface.size()),
+      touches_(surface.size()) {}
 
 void RigidContact::add_forces(double time, double dt) {
     const auto is_nothing = [](const Touch& t) { return t.depth == 0 && t.damping_loss == 0; };
@@ -287,21 +312,34 @@ void RigidContact::add_forces(double time, double dt) {
 
 RigidContact::Touch RigidContact::touch_at(std::size_t v, double time, double dt) {
     const Touch& then = touches_[v];
-    const double loss =
-        then.damper == 0 ? 0.0 : 0.5 * last_step_ * then.damper * (then.approach + then.tool_speed - dot(surface_.velocity(v), then.normal));
+    const double loss = then.damper == 0
+                            ? 0.0
+                            : 0.5 * last_step_ * then.damper *
+                                  (then.approach + then.tool_speed - dot(surface_.velocity(v), then.normal));
     const RigidHit hit = hit_of_(v, surface_.position[v], time);
     if (!(hit.depth > 0)) {
         if (then.depth > 0) stick_[v] = {};
         return {.damping_loss = loss};
     }
     const double stiffness = penalty_stiffness(surface_.mass(v), numerics_.step);
-    const auto t = touch(numerics_, stiffness, hit.depth, 0, hit.normal, surface_.velocity(v) - hit.velocity, dt, stick_[v]);
-    return {t.force, hit.normal, t.push, t.damper, hit.depth, t.energy, t.approach, dot(hit.velocity, hit.normal), t.friction_loss, loss,
+    const auto t =
+        touch(numerics_, stiffness, hit.depth, 0, hit.normal, surface_.velocity(v) - hit.velocity, dt, stick_[v]);
+    return {t.force,
+            hit.normal,
+            t.push,
+            t.damper,
+            hit.depth,
+            t.energy,
+            t.approach,
+            dot(hit.velocity, hit.normal),
+            t.friction_loss,
+            loss,
             dt * dot(t.force, hit.velocity)};
 }
 
 ContactReport RigidContact::report() const {
-    ContactReport report{.friction_loss = friction_loss_, .damping_loss = damping_loss_, .work = work_, .deepest = deepest_};
+    ContactReport report{
+        .friction_loss = friction_loss_, .damping_loss = damping_loss_, .work = work_, .deepest = deepest_};
     for (const Touch& t : touches_) {
         report.energy += t.energy, report.force += t.force, report.normal_force += t.push;
         report.touching += t.depth > 0;
@@ -337,9 +375,14 @@ void RigidContact::restore(std::span<const double> numbers) {
     }
 }
 
-std::unique_ptr<Contact> make_plane_contact(SolidSurface& surface, const Vec3& point, const Vec3& normal, const ContactNumerics& numerics) {
+std::unique_ptr<Contact> make_plane_contact(SolidSurface& surface, const Vec3& point, const Vec3& normal,
+                                            const ContactNumerics& numerics) {
     return std::make_unique<RigidContact>(
-        surface, [=](std::size_t, const Vec3& x, double) { return RigidHit{dot(point - x, normal), normal, {}}; }, numerics);
+        surface,
+        [=](std::size_t, const Vec3& x, double) {
+            return RigidHit{dot(point - x, normal), normal, {}};
+        },
+        numerics);
 }
 
 }   // namespace patency

@@ -16,7 +16,8 @@ struct ContactNumerics {
     double friction = 0;   ///< Coulomb's coefficient
     double damping = 0;    ///< of the approach, over the critical                                     THEORY (21.9)
     double step = 0;       ///< the time step that the stiffness is set for [s]
-    bool holds = false;    ///< between surfaces: what lasts hardly sinks in; for solids that come to rest  THEORY (21.11)
+    bool holds =
+        false;   ///< between surfaces: what lasts hardly sinks in; for solids that come to rest  THEORY (21.11)
 };
 
 /// What happened since the start, and the state now.
@@ -52,7 +53,8 @@ public:
 
 /// Each surface's vertices against the other's elements; the same surface twice: its parts against each other, near ones
 /// along it left out.
-std::unique_ptr<Contact> make_surface_contact(SolidSurface& first, SolidSurface& second, const ContactNumerics& numerics);
+std::unique_ptr<Contact> make_surface_contact(SolidSurface& first, SolidSurface& second,
+                                              const ContactNumerics& numerics);
 
 /// Where a vertex is in something rigid.
 struct RigidHit {
@@ -75,10 +77,10 @@ public:
 
 private:
     struct Touch {
-        Vec3 force{}, normal{};                                             // [N], unit
-        double push = 0, damper = 0, depth = 0, energy = 0;                 // N, N, m, J
-        double approach = 0, tool_speed = 0;                                // before the step; along the normal [m/s]
-        double friction_loss = 0, damping_loss = 0, work = 0;               // in the last step [J]
+        Vec3 force{}, normal{};                                 // [N], unit
+        double push = 0, damper = 0, depth = 0, energy = 0;     // N, N, m, J
+        double approach = 0, tool_speed = 0;                    // before the step; along the normal [m/s]
+        double friction_loss = 0, damping_loss = 0, work = 0;   // in the last step [J]
     };
     Touch touch_at(std::size_t v, double time, double dt);
 
@@ -91,6 +93,7 @@ private:
 };
 
 /// A rigid plane at rest; normal: unit, to the solid.
-std::unique_ptr<Contact> make_plane_contact(SolidSurface& surface, const Vec3& point, const Vec3& normal, const ContactNumerics& numerics);
+std::unique_ptr<Contact> make_plane_contact(SolidSurface& surface, const Vec3& point, const Vec3& normal,
+                                            const ContactNumerics& numerics);
 
 }   // namespace patency

@@ -33,14 +33,15 @@ struct Box {
         }
     }
     bool contains(const Vec3& x, double more) const {
-        return x.x >= low.x - more && x.y >= low.y - more && x.z >= low.z - more && x.x <= high.x + more && x.y <= high.y + more &&
-               x.z <= high.z + more;
+        return x.x >= low.x - more && x.y >= low.y - more && x.z >= low.z - more && x.x <= high.x + more &&
+               x.y <= high.y + more && x.z <= high.z + more;
     }
 };
 
 }   // namespace
 
-ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& elements) : vertices_(vertices), elements_(elements) {
+ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& elements)
+    : vertices_(vertices), elements_(elements) {
     const auto side = [](const SolidSurface& s) {
         double largest = 0;
         for (const auto& [a, b, c] : s.mesh().elements) {
@@ -67,7 +68,8 @@ void ContactSearch::find_facing() {
     std::vector<char> is_thin(mesh.elements.size());
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
         const auto& [ia, ib, ic] = mesh.elements[e];
-        const Vec3 ab = mesh.vertices[ib] - mesh.vertices[ia], ac = mesh.vertices[ic] - mesh.vertices[ia], bc = ac - ab, across = cross(ab, ac);
+        const Vec3 ab = mesh.vertices[ib] - mesh.vertices[ia], ac = mesh.vertices[ic] - mesh.vertices[ia], bc = ac - ab,
+                   across = cross(ab, ac);
         is_thin[e] = norm(across) < thin * std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
         normal[e] = norm(across) > 0 ? normalized(across) : Vec3{};
     }
@@ -77,7 +79,8 @@ void ContactSearch::find_facing() {
         double nearest = -2;
         for (const std::uint32_t v : mesh.elements[e])
             for (const std::uint32_t* other = at.begin(v); other < at.end(v); ++other)
-                if (const double alike = dot(normal[e], normal[*other]); !is_thin[*other] && alike > nearest) nearest = alike, facing_[e] = *other;
+                if (const double alike = dot(normal[e], normal[*other]); !is_thin[*other] && alike > nearest)
+                    nearest = alike, facing_[e] = *other;
     }
 }
 
@@ -89,7 +92,9 @@ void ContactSearch::exclude_near() {
     std::vector<double> way(mesh.vertices.size(), INFINITY);
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
         std::vector<std::uint32_t> visited, near;
-        std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>, std::greater<>> open;
+        std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>,
+                            std::greater<>>
+            open;
         open.push({0, v}), way[v] = 0, visited.push_back(v);
         while (!open.empty()) {
             const auto [length, from] = open.top();
@@ -131,7 +136,8 @@ void ContactSearch::find() {
     // Every element stands in the cell of its first corner; the others are at most its present size away.
     double size = 0;
     for (const auto& [a, b, c] : mesh.elements)
-        size = std::max({size, norm(elements_.position[a] - elements_.position[b]), norm(elements_.position[a] - elements_.position[c])});
+        size = std::max({size, norm(elements_.position[a] - elements_.position[b]),
+                         norm(elements_.position[a] - elements_.position[c])});
     const CellHash hash{away + size};
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
     const auto distance_to = [&](std::uint32_t e, const Vec3& x) {
@@ -157,13 +163,16 @@ void ContactSearch::find() {
                         if (found == cells.end()) continue;
                         for (const std::uint32_t e : found->second) {
                             if (norm(elements_.position[mesh.elements[e][0]] - x) > away + size) continue;
-                            if (excluded_.rows() > 0 && std::binary_search(excluded_.begin(v), excluded_.end(v), e)) continue;
-                            if (const double distance = distance_to(e, x); distance <= away) candidates_.items.push_back({e, distance});
+                            if (excluded_.rows() > 0 && std::binary_search(excluded_.begin(v), excluded_.end(v), e))
+                                continue;
+                            if (const double distance = distance_to(e, x); distance <= away)
+                                candidates_.items.push_back({e, distance});
                         }
                     }
-            std::sort(candidates_.items.begin() + std::ptrdiff_t(first), candidates_.items.end(), [](const Candidate& a, const Candidate& b) {
-                return a.distance != b.distance ? a.distance < b.distance : a.element < b.element;
-            });
+            std::sort(candidates_.items.begin() + std::ptrdiff_t(first), candidates_.items.end(),
+                      [](const Candidate& a, const Candidate& b) {
+                          return a.distance != b.distance ? a.distance < b.distance : a.element < b.element;
+                      });
         }
         candidates_.start.push_back(std::uint32_t(candidates_.items.size()));
     }

@@ -10,9 +10,9 @@ namespace patency {
 
 /// Weakly compressible blood: p = c^2 (rho - rho_0) above the reference pressure.             THEORY.md (2.1)
 struct FluidMaterial {
-    double density = 1060;      ///< rho_0 [kg/m^3]
-    double viscosity = 3.5e-3;  ///< dynamic; the largest there is, where it varies [Pa s]
-    double sound_speed = 1;     ///< c of the artificial compressibility [m/s]
+    double density = 1060;                        ///< rho_0 [kg/m^3]
+    double viscosity = 3.5e-3;                    ///< dynamic; the largest there is, where it varies [Pa s]
+    double sound_speed = 1;                       ///< c of the artificial compressibility [m/s]
     std::function<double(double)> viscosity_at;   ///< of the shear rate [1/s]; empty: constant
 
     double kinematic_viscosity() const { return viscosity / density; }
@@ -22,10 +22,11 @@ struct FluidMaterial {
 struct FluidParticles : ParticleSet {
     Field<Vec3> position{*this, "position", "m", Keep::state};
     Field<Vec3> velocity{*this, "velocity", "m/s", Keep::state};
-    Field<double> pressure{*this, "pressure", "Pa", Keep::state};             ///< above the reference pressure
+    Field<double> pressure{*this, "pressure", "Pa", Keep::state};   ///< above the reference pressure
     Field<double> pressure_rate{*this, "pressure_rate", "Pa/s", Keep::state};
-    Field<double> volume{*this, "volume", "m^3", Keep::state};                ///< at rest; m^2 in the plane
-    Field<std::int32_t> opening{*this, "opening", "1", Keep::state};          ///< 0 inside, else 1 + the opening's index; negative in the tail
+    Field<double> volume{*this, "volume", "m^3", Keep::state};   ///< at rest; m^2 in the plane
+    Field<std::int32_t> opening{*this, "opening", "1",
+                                Keep::state};   ///< 0 inside, else 1 + the opening's index; negative in the tail
     Field<Vec3> pressure_gradient{*this, "pressure_gradient", "Pa/m", Keep::state};
     Field<Mat3> velocity_gradient{*this, "velocity_gradient", "1/s", Keep::state};   ///< row a: gradient of v_a
     Field<double> viscosity{*this, "viscosity", "Pa s", Keep::state};
@@ -35,4 +36,4 @@ struct FluidParticles : ParticleSet {
     double excess_divergence = 0;   //                                                            THEORY.md (4.10)
 };
 
-}  // namespace patency
+}   // namespace patency

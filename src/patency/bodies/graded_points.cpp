@@ -22,11 +22,12 @@ using namespace relaxation;
 
 namespace {
 
-constexpr double skin = 0.3;   // rows hold neighbours this much farther than the support, in mean spacings of a pair
+constexpr double skin = 0.3;      // rows hold neighbours this much farther than the support, in mean spacings of a pair
 constexpr double crowded = 0.5;   // mean spacings between two points that stand for one
 constexpr double farthest = 0.1;         // that a point goes in one step, in its spacings
 constexpr double linear_within = 0.05;   // of its spacings a point may go before it asks for the distance again
-constexpr double wall_reach = 1.1 * support;   // spacings within which a point sees a wall; those may become larger on its way
+constexpr double wall_reach =
+    1.1 * support;   // spacings within which a point sees a wall; those may become larger on its way
 constexpr int none = -1;
 
 /// A small cube of the lumen, and how many points it should hold.
@@ -50,7 +51,8 @@ public:
         if (side > sides_in_spacings * std::max(limits.smallest, spacing - limits.growth * reach)) {
             const double q = 0.25 * side;
             for (int k = 0; k < 8; ++k)
-                add(middle + Vec3{k & 1 ? q : -q, k & 2 ? q : -q, k & 4 ? q : -q}, 0.5 * side, shares, depth - 0.5 * reach);
+                add(middle + Vec3{k & 1 ? q : -q, k & 2 ? q : -q, k & 4 ? q : -q}, 0.5 * side, shares,
+                    depth - 0.5 * reach);
             return;
         }
         // What share of a cube lies before a plane depends on how it is turned; on the mean about as the way.
@@ -135,7 +137,8 @@ public:
         });
         make_rows();
         double move = relax(1, settings_.steps);
-        for (int round = 0; thin_out() && round < rounds; ++round) move = relax(steps_after_thinning, steps_after_thinning);
+        for (int round = 0; thin_out() && round < rounds; ++round)
+            move = relax(steps_after_thinning, steps_after_thinning);
         compute_push();
         return quality(move);
     }
@@ -179,7 +182,8 @@ private:
         std::vector<char> is_out(count_, 0);
         for (std::uint32_t i = 0; i < count_; ++i)
             for (const std::uint32_t j : rows_.row(i))
-                if (j < i && !is_out[j] && norm(x_[i] - x_[j]) < crowded * 0.5 * (spacing_[i] + spacing_[j])) is_out[i] = 1;
+                if (j < i && !is_out[j] && norm(x_[i] - x_[j]) < crowded * 0.5 * (spacing_[i] + spacing_[j]))
+                    is_out[i] = 1;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < count_; ++i) {
             if (is_out[i]) continue;

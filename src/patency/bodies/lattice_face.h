@@ -44,7 +44,7 @@ public:
                     }
         }
     }
-    double push(double a) const { return read(push_, a); }          // away from the face
+    double push(double a) const { return read(push_, a); }   // away from the face
     double density(double a) const { return read(density_, a); }
 
 private:
@@ -86,4 +86,4 @@ inline double lattice_density(bool planar) {
     return sum;
 }
 
-}  // namespace patency::relaxation
+}   // namespace patency::relaxation

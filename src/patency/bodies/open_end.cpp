@@ -44,7 +44,7 @@ Vec3 velocity_inside(const FluidParticles& fluid, const OpenEnd& end, std::uint3
     return sum > 0 ? velocity / sum : fluid.velocity[parent];
 }
 
-}  // namespace
+}   // namespace
 
 void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends) {
     for (OpenEnd& end : ends) {
@@ -73,7 +73,8 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
                 const double s = end.axial(x[i]);
                 const bool member = std::abs(fluid.opening[i]) == std::int32_t(k) + 1;
                 if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
-                if (member) end.buffer.push_back({i, s, imposed_share(s / spacing)});
+                if (member)
+                    end.buffer.push_back({i, s, imposed_share(s / spacing)});
                 else {   // a weight that vanishes at both ends: nothing jumps when a particle passes
                     const double share = std::max(0.0, -s / (fit_depth * spacing));
                     end.inside.push_back({i, s, share * (1 - share) * fluid.volume[i]});
@@ -100,11 +101,13 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
     }
     // A pressure p at the plane lets the flow answer by (free_mean - p) / (rho c) times the area.
     const double answer = end.area / impedance;
-    end.mean_pressure = (end.pressure + end.resistance * (end.flow + answer * free_mean)) / (1 + end.resistance * answer);
+    end.mean_pressure =
+        (end.pressure + end.resistance * (end.flow + answer * free_mean)) / (1 + end.resistance * answer);
     end.slope = wss > 0 ? (wsp - end.mean_pressure * ws) / wss : 0;
 }
 
-double flow_of_section(const SectionShape& section, const FluidParticles& fluid, std::span<const OpenEnd::Member> members) {
+double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
+                       std::span<const OpenEnd::Member> members) {
     double w = 0, wq = 0, wqq = 0, wv = 0, wqv = 0;
     for (const auto& m : members) {
         const Vec3 d = fluid.position[m.index] - section.centre;
@@ -124,7 +127,8 @@ void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double sh
     }
     const SectionShape section{end.centre, end.normal, end.area, end.mean_square};
     const double at_plane = flow_of_section(section, fluid, end.section);
-    if (share > 0) end.flow_excess += share * (at_plane - flow_of_section(section, fluid, end.inside) - end.flow_excess);
+    if (share > 0)
+        end.flow_excess += share * (at_plane - flow_of_section(section, fluid, end.inside) - end.flow_excess);
     end.flow = at_plane - end.flow_excess;
 }
 
@@ -146,7 +150,9 @@ void exchange_particles(FluidParticles& fluid, double spacing, double tail, std:
             removed[i] = fluid.opening[i] < 0 || s > end.buffer_length;
             if (removed[i] || s >= 0) continue;
             fluid.opening[i] = 0;
-            copies.push_back({i, number, end.kind == OpenEnd::Kind::pressure ? velocity_inside(fluid, end, i, spacing) : fluid.velocity[i]});
+            copies.push_back(
+                {i, number,
+                 end.kind == OpenEnd::Kind::pressure ? velocity_inside(fluid, end, i, spacing) : fluid.velocity[i]});
             end.crossed -= 1;
             end.crossed_volume -= fluid.volume[i];
         }
@@ -179,4 +185,4 @@ void exchange_particles(FluidParticles& fluid, double spacing, double tail, std:
     }
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -19,12 +19,12 @@ struct OpenEnd {
 
     std::string name;
     Kind kind = Kind::pressure;
-    Vec3 centre, normal;      ///< of the plane; the normal points out of the domain
-    double area = 0;          ///< of the section [m^2]; the gap [m] in the plane
-    double mean_square = 0;   ///< of the distance from the centre, over the section [m^2]
-    double reach = 0;         ///< particles farther than this from the axis belong to another branch [m]
-    double buffer_length = 0; ///< [m]
-    bool undisturbed = false; ///< keep every velocity along the axis in the buffer
+    Vec3 centre, normal;        ///< of the plane; the normal points out of the domain
+    double area = 0;            ///< of the section [m^2]; the gap [m] in the plane
+    double mean_square = 0;     ///< of the distance from the centre, over the section [m^2]
+    double reach = 0;           ///< particles farther than this from the axis belong to another branch [m]
+    double buffer_length = 0;   ///< [m]
+    bool undisturbed = false;   ///< keep every velocity along the axis in the buffer
 
     /// Velocity end: what is imposed at position x and time t [m/s].
     std::function<Vec3(const Vec3& x, double t)> velocity;
@@ -39,7 +39,8 @@ struct OpenEnd {
     /// At the plane in the last acoustic step: flow out of the domain, imposed or measured [m^3/s], mean pressure there
     /// [Pa], and its slope along the normal [Pa/m].
     double flow = 0, mean_pressure = 0, slope = 0;
-    double flow_excess = 0;   ///< what the particles at the plane make of the flow beyond those inside, in the mean [m^3/s]
+    double flow_excess =
+        0;   ///< what the particles at the plane make of the flow beyond those inside, in the mean [m^3/s]
     /// Audit: particles and volume that have crossed the plane outwards less inwards since the start.
     std::int64_t crossed = 0;
     double crossed_volume = 0;
@@ -87,11 +88,12 @@ struct SectionShape {
     Vec3 centre, normal;
     double area, mean_square;
 };
-double flow_of_section(const SectionShape& section, const FluidParticles& fluid, std::span<const OpenEnd::Member> members);
+double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
+                       std::span<const OpenEnd::Member> members);
 
 /// Lets particles cross planes, copies those that enter, removes those at the far ends, and renews the tails: copies of
 /// a buffer's first particles (up to `tail` [m] beyond the plane) behind its last ones. New particles are ordered by
 /// end, then those that enter before those of the tail, each by parent.
 void exchange_particles(FluidParticles& fluid, double spacing, double tail, std::span<OpenEnd> ends);
 
-}  // namespace patency
+}   // namespace patency

@@ -37,7 +37,8 @@ private:
         Vec3 place;
         double radius = 0, clearance = 0;   // [m]
     };
-    static constexpr double share_trusted = 0.5;   // of the distance: an axis that bends changes it a little faster than x
+    static constexpr double share_trusted =
+        0.5;   // of the distance: an axis that bends changes it a little faster than x
 
     RigidHit look(std::size_t vertex, const Vec3& x) {
         const StentAxis::Sight at = tool_.axis.sight(x, piece_[vertex]);   // a vertex stays near where it was
@@ -65,7 +66,8 @@ class ToolContact final : public Contact {
 public:
     ToolContact(SolidSurface& surface, RadialTool tool, const ContactNumerics& numerics)
         : shape_(std::move(tool), surface.size()),
-          contact_(surface, [this](std::size_t v, const Vec3& x, double) { return shape_.hit(v, x); }, numerics) {}
+          contact_(
+              surface, [this](std::size_t v, const Vec3& x, double) { return shape_.hit(v, x); }, numerics) {}
 
     void add_forces(double time, double dt) override {
         shape_.move(time, dt);
@@ -79,7 +81,8 @@ public:
     ContactReport report() const override {
         ContactReport report = contact_.report();
         double low = INFINITY, high = -INFINITY;
-        for (const Push& p : contact_.pushes()) low = std::min(low, shape_.along(p.vertex)), high = std::max(high, shape_.along(p.vertex));
+        for (const Push& p : contact_.pushes())
+            low = std::min(low, shape_.along(p.vertex)), high = std::max(high, shape_.along(p.vertex));
         if (high > low) report.pressure = report.normal_force / (2 * std::numbers::pi * shape_.radius() * (high - low));
         return report;
     }
@@ -96,7 +99,8 @@ std::function<double(double)> ramped_radius(std::vector<double> times, std::vect
         const auto after = std::size_t(std::upper_bound(times.begin(), times.end(), t) - times.begin());
         if (after == 0) return radii.front();
         if (after == times.size()) return radii.back();
-        return radii[after - 1] + (radii[after] - radii[after - 1]) * growing_rise((t - times[after - 1]) / (times[after] - times[after - 1]));
+        return radii[after - 1] + (radii[after] - radii[after - 1]) *
+                                      growing_rise((t - times[after - 1]) / (times[after] - times[after - 1]));
     };
 }
 

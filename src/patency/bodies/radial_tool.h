@@ -11,9 +11,9 @@ namespace patency {
 struct RadialTool {
     enum class Kind { balloon, crimper };
     Kind kind = Kind::balloon;
-    StentAxis axis;                               ///< its middle is the tool's
-    double length = 0;                            ///< along the axis [m]; a balloon has a half sphere at each end
-    std::function<double(double time)> radius;    ///< [m]; continuous
+    StentAxis axis;                              ///< its middle is the tool's
+    double length = 0;                           ///< along the axis [m]; a balloon has a half sphere at each end
+    std::function<double(double time)> radius;   ///< [m]; continuous
 };
 
 /// A radius through these values [m] at these times [s], constant outside; between two of them as growing_rise.

@@ -18,8 +18,8 @@ using namespace relaxation;
 
 namespace {
 
-constexpr double skin = 0.3;        // rows hold neighbours this much farther than the support, in spacings
-constexpr double farthest = 0.1;    // that a point goes in one step
+constexpr double skin = 0.3;              // rows hold neighbours this much farther than the support, in spacings
+constexpr double farthest = 0.1;          // that a point goes in one step
 constexpr double plane_clearance = 0.1;   // least distance to an opening's plane, in spacings
 // A distance is linear around the place where it was asked: over so many spacings it errs by 0.0003 of one at a wall whose
 // radius is four. A point asks every twentieth step or so.
@@ -194,7 +194,8 @@ private:
             for (std::size_t k = 0; k < lumen_.openings.size(); ++k) {
                 const Opening& opening = lumen_.openings[k];
                 const auto [s, radial] = opening_coordinates(opening, position(i));
-                if (s > before && s < settings_.wall_end[k] + settings_.spacing && norm(radial) < opening.reach + beside)
+                if (s > before && s < settings_.wall_end[k] + settings_.spacing &&
+                    norm(radial) < opening.reach + beside)
                     opening_[i] = int(k);
             }
         });
@@ -321,7 +322,8 @@ private:
         if (opening_[i] == none) return;
         const std::size_t k = std::size_t(opening_[i]);
         const double height = height_over(opening_[i], i), end = settings_.fluid_end[k] / settings_.spacing;
-        const double low = zone_[i] == Zone::lumen ? -1e9 : (zone_[i] == Zone::past_opening ? 0 : end) + plane_clearance;
+        const double low =
+            zone_[i] == Zone::lumen ? -1e9 : (zone_[i] == Zone::past_opening ? 0 : end) + plane_clearance;
         const double high = zone_[i] == Zone::filler ? 1e9 : (zone_[i] == Zone::lumen ? 0 : end) - plane_clearance;
         const double back = std::clamp(height, low, high) - height;
         if (back == 0) return;
@@ -347,7 +349,8 @@ private:
         q.mean_density = sum_of(count_, [&](std::size_t i) { return fluid_[i] ? density_[i] : 0; }) / n;
         q.density_spread = std::sqrt(
             sum_of(count_, [&](std::size_t i) { return fluid_[i] ? square(density_[i] - q.mean_density) : 0; }) / n);
-        q.residual = std::sqrt(sum_of(count_, [&](std::size_t i) { return fluid_[i] ? dot(push_[i], push_[i]) : 0; }) / n);
+        q.residual =
+            std::sqrt(sum_of(count_, [&](std::size_t i) { return fluid_[i] ? dot(push_[i], push_[i]) : 0; }) / n);
         q.largest_density_error =
             largest_of(count_, [&](std::size_t i) { return fluid_[i] ? std::abs(density_[i] - 1) : 0; });
         return q;
@@ -363,18 +366,18 @@ private:
     std::vector<double> density_;
     std::vector<char> fluid_;
     std::vector<int> opening_;
-    std::vector<Zone> zone_;                 // kept for good
+    std::vector<Zone> zone_;   // kept for good
     std::vector<Seen> seen_;
     std::vector<std::uint32_t> given_as_;
     std::vector<Vec3> x_at_rows_;
     // Of the points and their images, in the order of the cells where they were when the rows were made.
     std::vector<Place> places_;
-    AlignedVector<Quad<double>> records_;    // one more, far away
+    AlignedVector<Quad<double>> records_;   // one more, far away
     Cells sorter_, cells_;
     Neighbours rows_;
 };
 
-}  // namespace
+}   // namespace
 
 RelaxQuality relax_points(std::span<Vec3> fluid, std::span<Vec3> wall, const Lumen& lumen,
                           const RelaxSettings& settings) {
@@ -408,4 +411,4 @@ FittedPoints make_relaxed_points(const Lumen& lumen, double spacing, const Point
     return points;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -24,8 +24,8 @@ struct RelaxSettings {
 /// How even the points are. density is sum_j W_ij V over the lattice's value: 1 is perfect.
 struct RelaxQuality {
     double mean_density, density_spread, largest_density_error;   ///< of the fluid points; spread: standard deviation
-    double residual;       ///< root mean square of |sum_j V grad W| x spacing over the fluid points
-    double last_move;      ///< largest move of the last step, in spacings
+    double residual;    ///< root mean square of |sum_j V grad W| x spacing over the fluid points
+    double last_move;   ///< largest move of the last step, in spacings
 };
 
 /// Moves the points in place, in Wendland C2 kernels of h = 1.3 spacings. Ghosts of a lattice continue the points
@@ -41,4 +41,4 @@ RelaxQuality relax_points(std::span<Vec3> fluid, std::span<Vec3> wall, const Lum
 FittedPoints make_relaxed_points(const Lumen& lumen, double spacing, const PointsExtent& extent,
                                  RelaxQuality* quality = nullptr);
 
-}  // namespace patency
+}   // namespace patency

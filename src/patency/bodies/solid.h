@@ -30,16 +30,17 @@ struct SolidParticles : ParticleSet {
     Field<Vec3> position{*this, "position", "m", Keep::state};
     Field<Vec3> reference{*this, "reference_position", "m", Keep::state};
     Field<Vec3> velocity{*this, "velocity", "m/s", Keep::state};
-    Field<double> volume{*this, "volume", "m^3", Keep::state};   ///< m^2 in the plane
-    Field<double> mass{*this, "mass", "kg", Keep::state};        ///< kg/m in the plane
-    Field<std::int32_t> material{*this, "material", "1", Keep::state};       ///< index into the body's materials
-    Field<std::int32_t> constraint{*this, "constraint", "1", Keep::state};   ///< 0: free; else 1 + index of its constraint
-    Field<Vec3> first_fibre{*this, "first_fibre", "1", Keep::state};         ///< unit vectors; zero: none
+    Field<double> volume{*this, "volume", "m^3", Keep::state};           ///< m^2 in the plane
+    Field<double> mass{*this, "mass", "kg", Keep::state};                ///< kg/m in the plane
+    Field<std::int32_t> material{*this, "material", "1", Keep::state};   ///< index into the body's materials
+    Field<std::int32_t> constraint{*this, "constraint", "1",
+                                   Keep::state};                       ///< 0: free; else 1 + index of its constraint
+    Field<Vec3> first_fibre{*this, "first_fibre", "1", Keep::state};   ///< unit vectors; zero: none
     Field<Vec3> second_fibre{*this, "second_fibre", "1", Keep::state};
-    Field<Mat3> inverse_plastic{*this, "inverse_plastic", "1", Keep::state}; ///< C_p^-1
+    Field<Mat3> inverse_plastic{*this, "inverse_plastic", "1", Keep::state};   ///< C_p^-1
     Field<double> plastic_strain{*this, "plastic_strain", "1", Keep::state};
-    Field<Vec3> force{*this, "force", "N", Keep::scratch};                   ///< by the stress in the body
-    Field<Vec3> load{*this, "load", "N", Keep::scratch};                     ///< by everything else
+    Field<Vec3> force{*this, "force", "N", Keep::scratch};   ///< by the stress in the body
+    Field<Vec3> load{*this, "load", "N", Keep::scratch};     ///< by everything else
 };
 
 /// What some particles must do: `held` axes follow `displacement` (reference place [m], time [s]) -> [m], or stay.

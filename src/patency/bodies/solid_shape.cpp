@@ -44,13 +44,18 @@ public:
     }
     /// Triangles between two circles, whose numbers may differ: the one whose next vertex comes first around steps on.
     /// `flip` turns their normals, which otherwise point along (around the circle) x (from a to b).
-    void stitch(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, std::uint16_t face, bool flip) {
+    void stitch(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, std::uint16_t face,
+                bool flip) {
         const auto at = [](const std::vector<std::uint32_t>& c, std::size_t k) { return c[k % c.size()]; };
-        const auto turn = [](const std::vector<std::uint32_t>& c, std::size_t k) { return c.size() == 1 ? 2.0 : double(k) / double(c.size()); };
+        const auto turn = [](const std::vector<std::uint32_t>& c, std::size_t k) {
+            return c.size() == 1 ? 2.0 : double(k) / double(c.size());
+        };
         std::size_t i = 0, j = 0;
         while (i < (a.size() == 1 ? 0 : a.size()) || j < (b.size() == 1 ? 0 : b.size())) {
-            const bool step_a = a.size() > 1 && i < a.size() && (j >= (b.size() == 1 ? 0 : b.size()) || turn(a, i + 1) <= turn(b, j + 1));
-            const std::array<std::uint32_t, 3> t = step_a ? std::array{at(a, i), at(a, i + 1), at(b, j)} : std::array{at(a, i), at(b, j + 1), at(b, j)};
+            const bool step_a = a.size() > 1 && i < a.size() &&
+                                (j >= (b.size() == 1 ? 0 : b.size()) || turn(a, i + 1) <= turn(b, j + 1));
+            const std::array<std::uint32_t, 3> t =
+                step_a ? std::array{at(a, i), at(a, i + 1), at(b, j)} : std::array{at(a, i), at(b, j + 1), at(b, j)};
             add(flip ? std::array{t[0], t[2], t[1]} : t, face);
             ++(step_a ? i : j);
         }
@@ -86,14 +91,17 @@ void mesh_box(const Vec3& low, const std::array<int, 3>& n, const std::array<dou
                     std::array<std::uint32_t, 4> q = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
                     if (!is_high) std::swap(q[1], q[3]);
                     // The diagonals alternate, so that no direction is preferred.
-                    if ((i + j) % 2 == 0) mesh.elements.push_back({q[0], q[1], q[2]}), mesh.elements.push_back({q[0], q[2], q[3]});
-                    else mesh.elements.push_back({q[0], q[1], q[3]}), mesh.elements.push_back({q[1], q[2], q[3]});
+                    if ((i + j) % 2 == 0)
+                        mesh.elements.push_back({q[0], q[1], q[2]}), mesh.elements.push_back({q[0], q[2], q[3]});
+                    else
+                        mesh.elements.push_back({q[0], q[1], q[3]}), mesh.elements.push_back({q[1], q[2], q[3]});
                     mesh.face.insert(mesh.face.end(), 2, std::uint16_t(mesh.faces.size() - 1));
                 }
         }
 }
 
-void mesh_rectangle(const Vec3& low, const std::array<int, 3>& n, const std::array<double, 3>& h, SurfaceElements& mesh) {
+void mesh_rectangle(const Vec3& low, const std::array<int, 3>& n, const std::array<double, 3>& h,
+                    SurfaceElements& mesh) {
     mesh.faces = {"x_low", "x_high", "y_low", "y_high"};
     const int around = 2 * (n[0] + n[1]);
     int x = 0, y = 0;
@@ -102,10 +110,14 @@ void mesh_rectangle(const Vec3& low, const std::array<int, 3>& n, const std::arr
         const std::uint32_t a = std::uint32_t(k), b = std::uint32_t((k + 1) % around);
         mesh.elements.push_back({a, b, b});
         mesh.face.push_back(k < n[0] ? 2 : k < n[0] + n[1] ? 1 : k < 2 * n[0] + n[1] ? 3 : 0);
-        if (k < n[0]) ++x;
-        else if (k < n[0] + n[1]) ++y;
-        else if (k < 2 * n[0] + n[1]) --x;
-        else --y;
+        if (k < n[0])
+            ++x;
+        else if (k < n[0] + n[1])
+            ++y;
+        else if (k < 2 * n[0] + n[1])
+            --x;
+        else
+            --y;
     }
 }
 
@@ -119,14 +131,18 @@ SolidFill fill_box(const Vec3& low, const Vec3& high, double spacing, bool plana
     const Vec3 corner{low.x, low.y, planar ? 0 : low.z};
     for (int k = 0; k < n[2]; ++k)
         for (int j = 0; j < n[1]; ++j)
-            for (int i = 0; i < n[0]; ++i) fill.places.push_back(corner + Vec3{(i + 0.5) * h[0], (j + 0.5) * h[1], (k + 0.5) * h[2]});
+            for (int i = 0; i < n[0]; ++i)
+                fill.places.push_back(corner + Vec3{(i + 0.5) * h[0], (j + 0.5) * h[1], (k + 0.5) * h[2]});
     fill.volumes.assign(fill.places.size(), h[0] * h[1] * (planar ? 1 : h[2]));
-    if (planar) mesh_rectangle(corner, n, h, fill.surface);
-    else mesh_box(corner, n, h, fill.surface);
+    if (planar)
+        mesh_rectangle(corner, n, h, fill.surface);
+    else
+        mesh_box(corner, n, h, fill.surface);
     return fill;
 }
 
-SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, double outer_radius, double spacing, bool planar) {
+SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, double outer_radius, double spacing,
+                        bool planar) {
     const Vec3 axis = planar ? Vec3{0, 0, 1} : normalized(to - from);
     const Vec3 other = std::abs(axis.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 e1 = planar ? Vec3{1, 0, 0} : normalized(other - dot(other, axis) * axis), e2 = cross(axis, e1);
@@ -143,7 +159,8 @@ SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, d
             const int count = count_at(r);
             for (int i = 0; i < count; ++i) {
                 const double angle = 2 * pi * (i + 0.5) / count;
-                fill.places.push_back(start + (planar ? 0 : (layer + 0.5) * dz) * axis + r * (std::cos(angle) * e1 + std::sin(angle) * e2));
+                fill.places.push_back(start + (planar ? 0 : (layer + 0.5) * dz) * axis +
+                                      r * (std::cos(angle) * e1 + std::sin(angle) * e2));
                 fill.volumes.push_back(pi * (b * b - a * a) / count * (planar ? 1 : dz));
             }
         }
@@ -152,12 +169,15 @@ SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, d
     const bool hollow = inner_radius > 0;
     const std::uint16_t inner = hollow ? mesh.face("inner") : 0, outer = mesh.face("outer");
     if (planar) {
-        if (hollow) mesh.segments(mesh.circle(start, e1, e2, inner_radius, count_at(inner_radius + 0.5 * dr)), inner, true);
+        if (hollow)
+            mesh.segments(mesh.circle(start, e1, e2, inner_radius, count_at(inner_radius + 0.5 * dr)), inner, true);
         mesh.segments(mesh.circle(start, e1, e2, outer_radius, count_at(outer_radius - 0.5 * dr)), outer, false);
         return fill;
     }
     using Circle = std::vector<std::uint32_t>;
-    const auto circle_at = [&](double r, int layer) { return mesh.circle(start + layer * dz * axis, e1, e2, r, count_at(std::max(r, 0.5 * dr))); };
+    const auto circle_at = [&](double r, int layer) {
+        return mesh.circle(start + layer * dz * axis, e1, e2, r, count_at(std::max(r, 0.5 * dr)));
+    };
     std::array<Circle, 2> first, last;   // at inner and outer radius
     for (int side = hollow ? 0 : 1; side < 2; ++side) {
         const double r = side == 0 ? inner_radius : outer_radius;
@@ -192,7 +212,8 @@ SolidFill fill_sphere(const Vec3& centre, double radius, double spacing) {
     };
     const Vec3 corner = 1.2 * radius * Vec3{1, 1, 1};
     StentParticles particles;
-    make_stent_particles(SignedDistance{ball, {centre - corner, centre + corner}}, 4 * pi / 3 * radius * radius * radius, spacing, particles);
+    make_stent_particles(SignedDistance{ball, {centre - corner, centre + corner}},
+                         4 * pi / 3 * radius * radius * radius, spacing, particles);
     fill.places.assign(particles.position.begin(), particles.position.end());
     fill.volumes.assign(particles.volume.begin(), particles.volume.end());
     // Circles of latitude, a spacing apart, stitched.
@@ -202,7 +223,8 @@ SolidFill fill_sphere(const Vec3& centre, double radius, double spacing) {
     std::vector<std::uint32_t> below = mesh.circle(centre - radius * Vec3{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 0, 1);
     for (int k = 1; k <= bands; ++k) {
         const double polar = pi * k / bands, r = k == bands ? 0 : radius * std::sin(polar);
-        auto above = mesh.circle(centre - radius * std::cos(polar) * Vec3{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, r, std::max(6, parts(2 * pi * r, spacing)));
+        auto above = mesh.circle(centre - radius * std::cos(polar) * Vec3{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, r,
+                                 std::max(6, parts(2 * pi * r, spacing)));
         mesh.stitch(below, above, outer, false);
         below = std::move(above);
     }
@@ -222,9 +244,12 @@ SolidFill cut_to_box(const SolidFill& fill, const Vec3& low, const Vec3& high) {
     std::vector<std::uint32_t> number(from.vertices.size(), unused);
     for (std::size_t e = 0; e < from.elements.size(); ++e) {
         auto element = from.elements[e];
-        if (!std::all_of(element.begin(), element.end(), [&](std::uint32_t v) { return holds(from.vertices[v]); })) continue;
+        if (!std::all_of(element.begin(), element.end(), [&](std::uint32_t v) { return holds(from.vertices[v]); }))
+            continue;
         for (std::uint32_t& v : element) {
-            if (number[v] == unused) number[v] = std::uint32_t(cut.surface.vertices.size()), cut.surface.vertices.push_back(from.vertices[v]);
+            if (number[v] == unused)
+                number[v] = std::uint32_t(cut.surface.vertices.size()),
+                cut.surface.vertices.push_back(from.vertices[v]);
             v = number[v];
         }
         cut.surface.elements.push_back(element);

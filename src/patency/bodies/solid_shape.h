@@ -20,7 +20,8 @@ SolidFill fill_box(const Vec3& low, const Vec3& high, double spacing, bool plana
 
 /// The cylinder around the axis between two points, with a hole if the inner radius is above zero; planar: the ring around
 /// `from`. Faces inner (of a hole), outer, and from, to.
-SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, double outer_radius, double spacing, bool planar);
+SolidFill fill_cylinder(const Vec3& from, const Vec3& to, double inner_radius, double outer_radius, double spacing,
+                        bool planar);
 
 /// Face outer.
 SolidFill fill_sphere(const Vec3& centre, double radius, double spacing);

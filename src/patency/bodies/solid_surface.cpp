@@ -41,7 +41,8 @@ SolidSurface::SolidSurface(SurfaceElements mesh, const SolidParticles& particles
     transpose_carriers(particles);
     area_.assign(n, 0);
     for (std::size_t e = 0; e < mesh_.elements.size(); ++e)
-        for (int k = 0; k < (planar_ ? 2 : 3); ++k) area_[mesh_.elements[e][std::size_t(k)]] += norm(area_vector(e)) / (planar_ ? 2 : 3);
+        for (int k = 0; k < (planar_ ? 2 : 3); ++k)
+            area_[mesh_.elements[e][std::size_t(k)]] += norm(area_vector(e)) / (planar_ ? 2 : 3);
 }
 
 /// N_j = w_j [1/sum w + (X - X_mean) . M^-1 (X_j - X_mean)] reproduces every linear function.            THEORY (21.2)
@@ -83,8 +84,10 @@ void SolidSurface::find_carriers(const SolidParticles& particles, double support
         const double size = trace(M) / (planar_ ? 2 : 3);
         if (planar_) M.z.z = size;
         if (!(determinant(M) > 1e-3 * size * size * size))
-            throw GeometryError(fmt::format("the surface at ({:.4g}, {:.4g}, {:.4g}) m has too few particles of the solid near it to be carried: "
-                                            "use a finer spacing", X.x, X.y, X.z));
+            throw GeometryError(fmt::format(
+                "the surface at ({:.4g}, {:.4g}, {:.4g}) m has too few particles of the solid near it to be carried: "
+                "use a finer spacing",
+                X.x, X.y, X.z));
         const Vec3 slope = inverse(M) * (X - mean);
         for (Share& s : shares) s.weight *= 1 / sum + dot(slope, particles.reference[s.index] - mean);
         double softness = 0;
@@ -98,7 +101,8 @@ void SolidSurface::find_carriers(const SolidParticles& particles, double support
 void SolidSurface::transpose_carriers(const SolidParticles& particles) {
     std::vector<std::vector<Share>> carried(particles.size());
     for (std::size_t v = 0; v < carriers_.rows(); ++v)
-        for (const Share* s = carriers_.begin(v); s < carriers_.end(v); ++s) carried[s->index].push_back({std::uint32_t(v), s->weight});
+        for (const Share* s = carriers_.begin(v); s < carriers_.end(v); ++s)
+            carried[s->index].push_back({std::uint32_t(v), s->weight});
     for (std::size_t i = 0; i < carried.size(); ++i) {
         if (carried[i].empty()) continue;
         carrier_particles_.push_back(std::uint32_t(i));
@@ -122,7 +126,9 @@ void SolidSurface::follow(const SolidParticles& particles) {
     for_each_index(size(), [&](std::size_t k) { position[k] = carried_at(k, particles.position), force[k] = {}; });
 }
 
-Vec3 SolidSurface::velocity(std::size_t vertex) const { return followed_ ? carried_at(vertex, followed_->velocity) : Vec3{}; }
+Vec3 SolidSurface::velocity(std::size_t vertex) const {
+    return followed_ ? carried_at(vertex, followed_->velocity) : Vec3{};
+}
 
 Vec3 SolidSurface::carried_at(std::size_t vertex, const Field<Vec3>& field) const {
     const Vec3* values = field.data();
@@ -150,7 +156,8 @@ void SolidSurface::push(SolidParticles& particles) const {
 std::vector<double> SolidSurface::carried(const std::vector<double>& by_particle) const {
     std::vector<double> values(size());
     for_each_index(size(), [&](std::size_t v) {
-        for (const Share* s = carriers_.begin(v); s < carriers_.end(v); ++s) values[v] += s->weight * by_particle[s->index];
+        for (const Share* s = carriers_.begin(v); s < carriers_.end(v); ++s)
+            values[v] += s->weight * by_particle[s->index];
     });
     return values;
 }

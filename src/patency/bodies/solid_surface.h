@@ -15,10 +15,10 @@ namespace patency {
 
 /// Triangles, counter-clockwise seen from outside; in the plane segments, the solid on their left.
 struct SurfaceElements {
-    std::vector<Vec3> vertices;                          ///< in the reference configuration [m]
-    std::vector<std::array<std::uint32_t, 3>> elements;  ///< of a segment the third is the second again
-    std::vector<std::uint16_t> face;                     ///< index into faces, one per element
-    std::vector<std::string> faces;                      ///< names
+    std::vector<Vec3> vertices;                           ///< in the reference configuration [m]
+    std::vector<std::array<std::uint32_t, 3>> elements;   ///< of a segment the third is the second again
+    std::vector<std::uint16_t> face;                      ///< index into faces, one per element
+    std::vector<std::string> faces;                       ///< names
 };
 
 /// Numbers in rows of different lengths.
@@ -83,8 +83,8 @@ private:
     SurfaceElements mesh_;
     const SolidParticles* followed_ = nullptr;
     bool planar_;
-    Ragged<Share> carriers_;            // of a vertex: particles
-    Ragged<Share> carried_;             // of a carrier: vertices
+    Ragged<Share> carriers_;   // of a vertex: particles
+    Ragged<Share> carried_;    // of a carrier: vertices
     std::vector<std::uint32_t> carrier_particles_;
     Ragged<std::uint32_t> elements_at_;
     std::vector<double> mass_, area_;

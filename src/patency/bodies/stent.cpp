@@ -74,7 +74,8 @@ void expect_fine(const StentForm& form, double spacing) {
 }
 
 /// Places a straight stent's particles along the axis; volumes [m^3] are those of the metal there and add up to `volume`.
-void bend(const std::vector<StentPoint>& points, const StentAxis& axis, double volume, bool grows_outwards, StentParticles& particles) {
+void bend(const std::vector<StentPoint>& points, const StentAxis& axis, double volume, bool grows_outwards,
+          StentParticles& particles) {
     particles.resize(points.size());
     double sum = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -103,7 +104,8 @@ void make_stent_particles(const StrutCurves& curves, const StentAxis& axis, doub
     bend(points, axis, measures.volume, true, particles);   // unrolled, all are as large
 }
 
-void make_stent_particles(const ImportedStent& stent, const StentAxis& axis, double spacing, StentParticles& particles) {
+void make_stent_particles(const ImportedStent& stent, const StentAxis& axis, double spacing,
+                          StentParticles& particles) {
     expect_fine(stent, spacing);
     StentParticles straight;
     make_stent_particles(make_surface_distance(stent.surface, spacing), stent.volume, spacing, straight);

@@ -16,7 +16,8 @@ constexpr double facing = 0.7071;   // cosine of the angle to the radius within 
 
 SurfaceElements skin_of(const StrutCurves& curves, const StentAxis& axis, double size) {
     Surface surface = make_stent_surface(curves, axis, size);
-    SurfaceElements skin{.vertices = std::move(surface.points), .elements = std::move(surface.triangles), .face = {}, .faces = names};
+    SurfaceElements skin{
+        .vertices = std::move(surface.points), .elements = std::move(surface.triangles), .face = {}, .faces = names};
     for (const auto& [a, b, c] : skin.elements) {
         const std::uint32_t inner = a % 2 + b % 2 + c % 2;   // points alternate
         skin.face.push_back(inner == 0 ? stent_outer : inner == 3 ? stent_inner : stent_side);
@@ -29,8 +30,11 @@ SurfaceElements skin_of(const StrutCurves& curves, const StentAxis& axis, double
 SurfaceElements skin_of(const ImportedStent& stent, const StentAxis& axis, double size) {
     const SignedDistance metal = make_exact_distance(stent.surface);
     const double cell = 0.75 * size;
-    const auto may_cross = [&](const Bounds& box) { return std::abs(metal.value(0.5 * (box.low + box.high))) <= 0.5 * norm(box.high - box.low); };
-    Surface surface = make_level_surface([&](const Vec3& x) { return metal.value(x); }, level_grid_around(metal.bounds(), cell), may_cross);
+    const auto may_cross = [&](const Bounds& box) {
+        return std::abs(metal.value(0.5 * (box.low + box.high))) <= 0.5 * norm(box.high - box.low);
+    };
+    Surface surface = make_level_surface([&](const Vec3& x) { return metal.value(x); },
+                                         level_grid_around(metal.bounds(), cell), may_cross);
     SurfaceElements skin{.vertices = {}, .elements = std::move(surface.triangles), .face = {}, .faces = names};
     for (const auto& t : skin.elements) {
         const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];

@@ -15,7 +15,8 @@ public:
         for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
             if (mesh.face[e] != face) continue;
             const auto& [a, b, c] = mesh.elements[e];
-            const double third = norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 6;
+            const double third =
+                norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 6;
             for (const std::uint32_t v : mesh.elements[e]) area[v] += third;
         }
         for (std::uint32_t v = 0; v < area.size(); ++v)
@@ -27,7 +28,8 @@ public:
     }
     ContactReport report() const override {
         ContactReport report;
-        for (const auto& [v, k] : springs_) report.energy += 0.5 * k * dot(stretch(v), stretch(v)), report.force -= k * stretch(v);
+        for (const auto& [v, k] : springs_)
+            report.energy += 0.5 * k * dot(stretch(v), stretch(v)), report.force -= k * stretch(v);
         return report;
     }
     std::vector<Push> pushes() const override { return {}; }
@@ -47,6 +49,8 @@ private:
 
 }   // namespace
 
-std::unique_ptr<Contact> make_tether(SolidSurface& surface, std::uint16_t face, double stiffness) { return std::make_unique<Tether>(surface, face, stiffness); }
+std::unique_ptr<Contact> make_tether(SolidSurface& surface, std::uint16_t face, double stiffness) {
+    return std::make_unique<Tether>(surface, face, stiffness);
+}
 
 }   // namespace patency

@@ -20,7 +20,8 @@ constexpr double held = 2.5;             // spacings: a support's worth of parti
 
 WallLayer layer_at(const WallPlace& place, double adventitia_share) {
     if (place.healthy < 0) return WallLayer::plaque;
-    return std::min(place.lumen, place.healthy) > (1 - adventitia_share) * place.thickness ? WallLayer::adventitia : WallLayer::media;
+    return std::min(place.lumen, place.healthy) > (1 - adventitia_share) * place.thickness ? WallLayer::adventitia
+                                                                                           : WallLayer::media;
 }
 
 /// Without those that were led away: beside a plane that cuts one branch next to another the distance jumps by the way to the other's plane,
@@ -30,7 +31,10 @@ std::vector<Vec3> within(const SignedDistance& body, const StentParticles& parti
     for (const Vec3& x : particles.position)
         if (body.value(x) < 0.5 * spacing) places.push_back(x);
     if (const double lost = 1 - double(places.size()) / double(particles.size()); lost > 0.01)
-        throw GeometryError(fmt::format("{:.2g} % of the wall's particles do not stay in it: give deployment.region another value, so that no end lies beside a bifurcation.", 100 * lost));
+        throw GeometryError(
+            fmt::format("{:.2g} % of the wall's particles do not stay in it: give deployment.region another value, so "
+                        "that no end lies beside a bifurcation.",
+                        100 * lost));
     return places;
 }
 
@@ -58,15 +62,18 @@ std::string_view name_of(WallLayer layer) {
 
 VesselWall make_vessel_wall(const WallField& field, double spacing, double adventitia_share) {
     if (!(spacing > 0) || field.thinnest() < fewest_through * spacing)
-        throw GeometryError(fmt::format("wall.spacing: {:.3g} mm leaves fewer than three particles through the wall, which is {:.3g} mm thick where it is thinnest: take "
-                                        "{:.2g} mm or less.",
-                                        1e3 * spacing, 1e3 * field.thinnest(), 1e3 * field.thinnest() / 4));
+        throw GeometryError(
+            fmt::format("wall.spacing: {:.3g} mm leaves fewer than three particles through the wall, which is {:.3g} "
+                        "mm thick where it is thinnest: take "
+                        "{:.2g} mm or less.",
+                        1e3 * spacing, 1e3 * field.thinnest(), 1e3 * field.thinnest() / 4));
     const SignedDistance body = field.wall();
     const Lumen as_lumen{.distance = body, .openings = {}, .volume = 0, .wall_area = 0, .bounds = body.bounds()};
     const double volume = measure(as_lumen, spacing / 3).volume;
     StentParticles particles;
     make_stent_particles(body, volume, spacing, particles);
-    VesselWall wall{.places = within(body, particles, spacing), .volume = 0, .layer = {}, .is_at_end = {}, .surface = {}};
+    VesselWall wall{
+        .places = within(body, particles, spacing), .volume = 0, .layer = {}, .is_at_end = {}, .surface = {}};
     wall.volume = volume / double(wall.places.size());
     for (const Vec3& x : wall.places) {
         const WallPlace at = field.at(x);

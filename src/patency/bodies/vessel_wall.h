@@ -15,11 +15,12 @@ enum class WallLayer : std::int32_t { plaque, media, adventitia };
 std::string_view name_of(WallLayer layer);
 
 struct VesselWall {
-    std::vector<Vec3> places;        ///< [m]
-    double volume;                   ///< of each [m^3]; they add up to the wall's
+    std::vector<Vec3> places;   ///< [m]
+    double volume;              ///< of each [m^3]; they add up to the wall's
     std::vector<WallLayer> layer;
-    std::vector<char> is_at_end;     ///< so near to a plane that cuts the vessel that it belongs to what holds the wall there
-    SurfaceElements surface;         ///< faces "lumen" and "outer", open where the wall is cut; out of the wall
+    std::vector<char>
+        is_at_end;             ///< so near to a plane that cuts the vessel that it belongs to what holds the wall there
+    SurfaceElements surface;   ///< faces "lumen" and "outer", open where the wall is cut; out of the wall
 };
 
 /// adventitia_share: of the thickness, outside. Triangles are about as large as the spacing [m]. Throws GeometryError for a spacing that does

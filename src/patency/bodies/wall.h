@@ -15,4 +15,4 @@ struct WallParticles : ParticleSet {
     Field<double> volume{*this, "volume", "m^3", Keep::state};
 };
 
-}  // namespace patency
+}   // namespace patency

@@ -6,8 +6,10 @@
 namespace patency::deck {
 
 bool Case::fits_cells() const {
-    const bool has_waveform = std::any_of(openings.begin(), openings.end(), [](const auto& o) { return bool(o.second.waveform); });
-    const bool is_still = wall.motion == WallMotion::rigid && wall.velocity.empty() && body_force.x == 0 && body_force.y == 0 && body_force.z == 0;
+    const bool has_waveform =
+        std::any_of(openings.begin(), openings.end(), [](const auto& o) { return bool(o.second.waveform); });
+    const bool is_still = wall.motion == WallMotion::rigid && wall.velocity.empty() && body_force.x == 0 &&
+                          body_force.y == 0 && body_force.z == 0;
     const bool is_changing_once = about.mode == Mode::steady && has_waveform;
     return is_still && !is_changing_once;
 }

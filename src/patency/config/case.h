@@ -48,7 +48,9 @@ enum class BedState { hyperaemic, resting };
 inline Words words(BedState) { return {"hyperaemic", "resting"}; }
 
 enum class InitialVelocity { rest, plug, parabola, taylor_green, womersley, estimate, cells };
-inline Words words(InitialVelocity) { return {"rest", "plug", "parabola", "taylor_green", "womersley", "estimate", "cells"}; }
+inline Words words(InitialVelocity) {
+    return {"rest", "plug", "parabola", "taylor_green", "womersley", "estimate", "cells"};
+}
 
 enum class InitialPressure { zero, linear, estimate, cells };
 inline Words words(InitialPressure) { return {"zero", "linear", "estimate", "cells"}; }
@@ -104,22 +106,24 @@ struct Branch {
 /// A shape by its measures. Members that do not belong to the type stay at their defaults.
 struct Shape {
     ShapeType type = ShapeType::channel;
-    double gap = 0;                                     ///< channel, step: m between the plates (y = 0 and y = gap)
-    double length = 0;                                  ///< channel, step (along x), tube, cone: m
-    double step_height = 0;                             ///< step: m by which the lower plate lies higher at first
-    double step_at = 0;                                 ///< step: m along x to where it drops
-    Vec3 size;                                          ///< box: m
-    std::array<bool, 3> periodic{false, false, false};  ///< box
-    bool planar = false;                                ///< box: two-dimensional, z = 0
-    double diameter = 0;                                ///< tube: m
-    std::vector<double> diameters;                      ///< cone: m, at the start and at the end
-    std::vector<NozzleSection> sections;                ///< nozzle
-    std::vector<Branch> branches;                       ///< branches
-    Vec3 axis{1, 0, 0};                                 ///< tube, cone, nozzle: direction, any length
-    Vec3 start;                                         ///< tube, cone, nozzle: m, the axis' first point
+    double gap = 0;                                      ///< channel, step: m between the plates (y = 0 and y = gap)
+    double length = 0;                                   ///< channel, step (along x), tube, cone: m
+    double step_height = 0;                              ///< step: m by which the lower plate lies higher at first
+    double step_at = 0;                                  ///< step: m along x to where it drops
+    Vec3 size;                                           ///< box: m
+    std::array<bool, 3> periodic{false, false, false};   ///< box
+    bool planar = false;                                 ///< box: two-dimensional, z = 0
+    double diameter = 0;                                 ///< tube: m
+    std::vector<double> diameters;                       ///< cone: m, at the start and at the end
+    std::vector<NozzleSection> sections;                 ///< nozzle
+    std::vector<Branch> branches;                        ///< branches
+    Vec3 axis{1, 0, 0};                                  ///< tube, cone, nozzle: direction, any length
+    Vec3 start;                                          ///< tube, cone, nozzle: m, the axis' first point
     bool operator==(const Shape&) const = default;
 
-    bool is_planar() const { return type == ShapeType::channel || type == ShapeType::step || (type == ShapeType::box && planar); }
+    bool is_planar() const {
+        return type == ShapeType::channel || type == ShapeType::step || (type == ShapeType::box && planar);
+    }
 };
 
 struct Extensions {
@@ -130,11 +134,11 @@ struct Extensions {
 /// A narrowing of a branch of the network with the profile of a cosine.
 struct Lesion {
     std::string branch;
-    double position = 0;                    ///< m along the branch from its first point, or its opening there, to the middle
-    double length = 0;                      ///< m
+    double position = 0;   ///< m along the branch from its first point, or its opening there, to the middle
+    double length = 0;     ///< m
     double diameter_stenosis_percent = 0;   ///< of the healthy diameter, at the middle
-    double eccentricity = 0;                ///< 0: all around; 1: the lumen touches the healthy wall opposite to the plaque
-    std::optional<Vec3> side;               ///< direction from the axis to the plaque
+    double eccentricity = 0;    ///< 0: all around; 1: the lumen touches the healthy wall opposite to the plaque
+    std::optional<Vec3> side;   ///< direction from the axis to the plaque
     bool operator==(const Lesion&) const = default;
 };
 
@@ -143,9 +147,11 @@ struct Geometry {   // exactly one of surface, network, shape
     std::optional<Shape> shape;
     std::optional<std::string> unit;    ///< of the file's coordinates: m, cm, mm or um
     std::optional<std::string> space;   ///< axes of the file's coordinates: LPS or RAS
-    std::optional<std::string> inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
-    std::map<std::string, std::string> names;   ///< surface: own names for openings, by the names that they are found under
-    std::map<std::string, Vec3> branches;       ///< surface: names for branches, by a point within each [m]
+    std::optional<std::string>
+        inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
+    std::map<std::string, std::string>
+        names;                              ///< surface: own names for openings, by the names that they are found under
+    std::map<std::string, Vec3> branches;   ///< surface: names for branches, by a point within each [m]
     std::optional<Lesion> lesion;
     Extensions extensions;
     bool operator==(const Geometry&) const = default;
@@ -168,19 +174,19 @@ struct Blood {
 
 /// mean + sum_k cosines[k] cos(2 pi (k+1) t / period) + sines[k] sin(2 pi (k+1) t / period)
 struct Fourier {
-    double mean = 0;                     ///< in the unit of the waveform
-    double period = 0;                   ///< s
-    std::vector<double> cosines, sines;  ///< equally many
+    double mean = 0;                      ///< in the unit of the waveform
+    double period = 0;                    ///< s
+    std::vector<double> cosines, sines;   ///< equally many
     bool operator==(const Fourier&) const = default;
 };
 
 /// A velocity [m/s], flow [m^3/s] or pressure [Pa] over time, as its opening's type says.
-struct Waveform {   // exactly one of file, times + values, fourier
+struct Waveform {                                // exactly one of file, times + values, fourier
     std::optional<std::filesystem::path> file;   ///< CSV, columns time and value named with units
     std::vector<double> times;                   ///< s, increasing
     std::vector<double> values;
     std::optional<Fourier> fourier;
-    std::optional<double> period;                ///< s; absent: the case's period
+    std::optional<double> period;   ///< s; absent: the case's period
     bool operator==(const Waveform&) const = default;
 };
 
@@ -220,9 +226,9 @@ struct Aorta {
 /// The small vessels behind the outlets, which tell what blood they take: resistances without a value are tuned to it.
 struct Bed {
     BedState state = BedState::hyperaemic;
-    std::optional<double> flow;        ///< m^3/s of all such outlets together; absent: by the state and the inlet's area
-    double murray_exponent = 3;        ///< an outlet takes its diameter to this power
-    double venous_pressure = 666.612;  ///< Pa behind the bed: 5 mmHg
+    std::optional<double> flow;   ///< m^3/s of all such outlets together; absent: by the state and the inlet's area
+    double murray_exponent = 3;   ///< an outlet takes its diameter to this power
+    double venous_pressure = 666.612;   ///< Pa behind the bed: 5 mmHg
     bool operator==(const Bed&) const = default;
 };
 
@@ -230,10 +236,10 @@ struct Bed {
 struct StentPattern {
     StentLayout layout = StentLayout::rings;
     int rings = 0, crowns = 0;
-    double length = 0;                                             ///< m
+    double length = 0;                                                 ///< m
     double diameter = 0, crimped_diameter = 0, nominal_diameter = 0;   ///< m
-    double strut_width = 0, strut_thickness = 0;                   ///< m
-    double crown_radius = 0, gap = 0;                              ///< m
+    double strut_width = 0, strut_thickness = 0;                       ///< m
+    double crown_radius = 0, gap = 0;                                  ///< m
     int connectors = 1, connector_shift = 0;
     ConnectorShape connector_shape = ConnectorShape::straight;
     CrownFacing facing = CrownFacing::aligned;
@@ -244,7 +250,7 @@ struct StentPattern {
 };
 
 /// Where the stent's middle lies: at an arc length of a branch, or by translation and rotation.
-struct StentPlacement {   // exactly one of arc_length, translation
+struct StentPlacement {                  // exactly one of arc_length, translation
     std::optional<std::string> branch;   ///< absent: the only one
     std::optional<double> arc_length;    ///< m from the branch's start
     std::optional<Vec3> translation;     ///< m
@@ -253,16 +259,16 @@ struct StentPlacement {   // exactly one of arc_length, translation
     bool operator==(const StentPlacement&) const = default;
 };
 
-struct Stent {   // exactly one of design, pattern, surface
+struct Stent {                           // exactly one of design, pattern, surface
     std::optional<std::string> design;   ///< a name of the library
     std::optional<double> length;        ///< m, of a design; absent: the library's
     std::optional<StentPattern> pattern;
     std::optional<std::filesystem::path> surface;   ///< closed, of the metal
     std::optional<std::string> unit;                ///< of the surface's coordinates
     std::optional<std::string> alloy;               ///< absent: the design's
-    std::optional<StentPlacement> placement;   ///< absent: the middle of the worst lesion
-    std::optional<double> spacing;   ///< m between its particles; absent: a quarter of a strut
-    std::optional<SolidMaterialChoice> material;   ///< absent: the alloy's of the table
+    std::optional<StentPlacement> placement;        ///< absent: the middle of the worst lesion
+    std::optional<double> spacing;                  ///< m between its particles; absent: a quarter of a strut
+    std::optional<SolidMaterialChoice> material;    ///< absent: the alloy's of the table
     bool operator==(const Stent&) const = default;
 };
 
@@ -281,22 +287,22 @@ struct Convergence {
 };
 
 struct Numerics {
-    std::optional<SchemeName> scheme;         ///< absent: Case::scheme() chooses
-    double spacing = 0;                       ///< m between particles; 0: follows the vessel (`across`)
-    std::optional<double> across;             ///< of cells: spacings in the local diameter, instead of one spacing
+    std::optional<SchemeName> scheme;   ///< absent: Case::scheme() chooses
+    double spacing = 0;                 ///< m between particles; 0: follows the vessel (`across`)
+    std::optional<double> across;       ///< of cells: spacings in the local diameter, instead of one spacing
     std::optional<double> smallest_spacing, largest_spacing;   ///< of cells [m]
-    double smoothing_ratio = 1.3;             ///< h over spacing
-    std::optional<double> sound_speed;        ///< m/s; absent: chosen (THEORY.md)
-    std::optional<double> sound_speed_factor; ///< sound speed over reference speed, instead of sound_speed
-    std::optional<double> reference_speed;    ///< m/s, the largest expected; absent: from the openings
+    double smoothing_ratio = 1.3;                              ///< h over spacing
+    std::optional<double> sound_speed;                         ///< m/s; absent: chosen (THEORY.md)
+    std::optional<double> sound_speed_factor;   ///< sound speed over reference speed, instead of sound_speed
+    std::optional<double> reference_speed;      ///< m/s, the largest expected; absent: from the openings
     Precision precision = Precision::mixed;
-    double duration = 0;                      ///< s of simulated time
-    std::optional<Convergence> convergence;   ///< absent: all of the duration is run
+    double duration = 0;                             ///< s of simulated time
+    std::optional<Convergence> convergence;          ///< absent: all of the duration is run
     WithoutRest without_rest = WithoutRest::means;   ///< of a steady flow on cells
-    int steps_per_period = 200;               ///< of a periodic flow on cells
-    double advection_cfl = 0.25;              // Zhang et al. 2020, dual-criteria stepping
-    double acoustic_cfl = 0.6;                // the same
-    int threads = 0;                          ///< 0: all
+    int steps_per_period = 200;                      ///< of a periodic flow on cells
+    double advection_cfl = 0.25;                     // Zhang et al. 2020, dual-criteria stepping
+    double acoustic_cfl = 0.6;                       // the same
+    int threads = 0;                                 ///< 0: all
     PressureReference pressure_reference = PressureReference::moving;
     int seed = 1;
     SolidSettings solid;
@@ -312,7 +318,7 @@ struct Probe {
 
 struct LineProfile {
     std::string name;
-    Vec3 from, to;               ///< m
+    Vec3 from, to;   ///< m
     int points = 51;
     std::vector<double> times;   ///< s; empty: at the end
     bool operator==(const LineProfile&) const = default;
@@ -347,7 +353,7 @@ struct Case {
     Bed bed;
     std::optional<Stent> stent;
     Deployment deployment;
-    std::vector<SolidDeck> solids;        ///< with them there is no geometry and no blood
+    std::vector<SolidDeck> solids;   ///< with them there is no geometry and no blood
     std::vector<ContactDeck> contacts;
     Initial initial;
     Numerics numerics;
@@ -366,4 +372,4 @@ struct Case {
     InitialPressure initial_pressure() const;
 };
 
-}  // namespace patency::deck
+}   // namespace patency::deck

@@ -35,7 +35,8 @@ private:
     // The sentence belongs to `key`; nothing is said if it, or one of the others the rule reads, is wrong already.
     void expect(bool holds, const std::string& key, const std::string& sentence, std::vector<std::string> others = {}) {
         others.push_back(key);
-        const bool is_known = std::any_of(others.begin(), others.end(), [&](const auto& k) { return mistakes_.touch(k); });
+        const bool is_known =
+            std::any_of(others.begin(), others.end(), [&](const auto& k) { return mistakes_.touch(k); });
         if (!holds && !is_known) mistakes_.add(place_of(root_, key), key, sentence);
     }
 
@@ -43,8 +44,10 @@ private:
     void check_names(const std::string& path, const Items& items) {
         std::set<std::string> names;
         for (std::size_t i = 0; i < items.size(); ++i) {
-            const std::string key = path + "." + std::to_string(i) + ".name", shown = double_quoted(shortened(items[i].name));
-            expect(is_plain_name(items[i].name), key, shown + " is no name; names have letters, digits, _ and -, at most 64");
+            const std::string key = path + "." + std::to_string(i) + ".name",
+                              shown = double_quoted(shortened(items[i].name));
+            expect(is_plain_name(items[i].name), key,
+                   shown + " is no name; names have letters, digits, _ and -, at most 64");
             expect(names.insert(items[i].name).second, key, "a second " + shown + "; names must differ");
         }
     }
@@ -63,22 +66,29 @@ private:
             expect(std::find(known.begin(), known.end(), *g.unit) != known.end(), path + "unit",
                    double_quoted(*g.unit) + " is not one of " + join(known, ", ", " or "));
         }
-        if (g.space) expect(*g.space == "LPS" || *g.space == "RAS", path + "space", double_quoted(*g.space) + " is not LPS or RAS");
+        if (g.space)
+            expect(*g.space == "LPS" || *g.space == "RAS", path + "space",
+                   double_quoted(*g.space) + " is not LPS or RAS");
         if (g.surface)
             expect(g.unit.has_value(), path + "surface",
                    "needs geometry.unit: a surface file does not say whether it counts in mm or in m", {path + "unit"});
         if (g.network)
             expect(g.unit.has_value() || g.network->extension() == ".json", path + "network",
                    "needs geometry.unit: only a JSON network says whether it counts in mm or in m", {path + "unit"});
-        if (g.inlet) expect(g.surface.has_value(), path + "inlet", "can be chosen of a surface only; a network and a shape say it themselves");
-        expect(g.branches.empty() || g.surface, path + "branches", "can be named of a surface only; a network names its own and a shape has none");
+        if (g.inlet)
+            expect(g.surface.has_value(), path + "inlet",
+                   "can be chosen of a surface only; a network and a shape say it themselves");
+        expect(g.branches.empty() || g.surface, path + "branches",
+               "can be named of a surface only; a network names its own and a shape has none");
         for (const auto& [name, place] : g.branches)
-            expect(is_plain_name(name), path + "branches", double_quoted(shortened(name)) + " is no name; names have letters, digits, _ and -, at most 64");
+            expect(is_plain_name(name), path + "branches",
+                   double_quoted(shortened(name)) + " is no name; names have letters, digits, _ and -, at most 64");
         if (g.lesion) {
             expect(g.network.has_value(), path + "lesion", "can narrow a network only, not a surface or a shape");
             expect(!g.lesion->side || norm(*g.lesion->side) > 0, path + "lesion.side", "must not be zero");
             expect(g.lesion->position >= 0.5 * g.lesion->length, path + "lesion.position",
-                   "is nearer to the start of the branch than half the length, " + format_quantity(0.5 * g.lesion->length, "mm"),
+                   "is nearer to the start of the branch than half the length, " +
+                       format_quantity(0.5 * g.lesion->length, "mm"),
                    {path + "lesion.length"});
         }
         if (g.shape) check_shape(*g.shape, path + "shape.");
@@ -89,8 +99,8 @@ private:
             expect(s.size.x > 0 && s.size.y > 0 && (s.planar || s.size.z > 0), path + "size",
                    "the sides must be greater than zero");
             const bool is_endless = s.periodic[0] && s.periodic[1] && (s.planar || s.periodic[2]);
-            expect(!is_endless || case_.openings.empty(), "openings", "a box that is periodic all around has no openings",
-                   {path + "periodic"});
+            expect(!is_endless || case_.openings.empty(), "openings",
+                   "a box that is periodic all around has no openings", {path + "periodic"});
         }
         expect(norm(s.axis) > 0, path + "axis", "must not be zero");
         if (s.type == ShapeType::step) {
@@ -139,30 +149,37 @@ private:
     void check_numerics() {
         const Numerics& n = case_.numerics;
         expect(!n.across || case_.scheme() == SchemeName::cells, "numerics.across",
-               "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing", {"numerics.scheme"});
+               "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing",
+               {"numerics.scheme"});
         expect(!n.across || case_.solids.empty(), "numerics.across", "is for blood; solids need numerics.spacing");
-        expect(n.without_rest == WithoutRest::means || (case_.scheme() == SchemeName::cells && case_.about.mode == Mode::steady), "numerics.without_rest",
-               "is for a steady flow of scheme cells", {"numerics.scheme"});
-        expect(n.across || !n.smallest_spacing, "numerics.smallest_spacing", "means something with numerics.across only");
+        expect(n.without_rest == WithoutRest::means ||
+                   (case_.scheme() == SchemeName::cells && case_.about.mode == Mode::steady),
+               "numerics.without_rest", "is for a steady flow of scheme cells", {"numerics.scheme"});
+        expect(n.across || !n.smallest_spacing, "numerics.smallest_spacing",
+               "means something with numerics.across only");
         expect(n.across || !n.largest_spacing, "numerics.largest_spacing", "means something with numerics.across only");
         if (n.smallest_spacing && n.largest_spacing)
             expect(*n.smallest_spacing <= *n.largest_spacing, "numerics.smallest_spacing",
-                   "is more than numerics.largest_spacing, " + format_quantity(*n.largest_spacing, "mm"), {"numerics.largest_spacing"});
+                   "is more than numerics.largest_spacing, " + format_quantity(*n.largest_spacing, "mm"),
+                   {"numerics.largest_spacing"});
         if (case_.geometry.shape)
-            expect(!n.across || !case_.geometry.shape->is_planar(), "numerics.across", "follows a vessel in three dimensions, not a planar shape; give numerics.spacing",
+            expect(!n.across || !case_.geometry.shape->is_planar(), "numerics.across",
+                   "follows a vessel in three dimensions, not a planar shape; give numerics.spacing",
                    {"geometry.shape"});
     }
 
     void check_stent() {
         if (!case_.stent) return;
         const Stent& stent = *case_.stent;
-        expect(!stent.surface || stent.unit, "stent.surface", "needs stent.unit: a surface file does not say whether it counts in mm or in m");
+        expect(!stent.surface || stent.unit, "stent.surface",
+               "needs stent.unit: a surface file does not say whether it counts in mm or in m");
         if (stent.unit) {
             const std::vector<std::string> known = unit_names(Dimension::length);
             expect(std::find(known.begin(), known.end(), *stent.unit) != known.end(), "stent.unit",
                    double_quoted(*stent.unit) + " is not one of " + join(known, ", ", " or "));
         }
-        if (stent.placement) expect(norm(stent.placement->direction) > 0, "stent.placement.direction", "must not be zero");
+        if (stent.placement)
+            expect(norm(stent.placement->direction) > 0, "stent.placement.direction", "must not be zero");
     }
 
     void check_solids() {
@@ -174,33 +191,42 @@ private:
             for (std::size_t k = 0; k < solid.pressures.size(); ++k) {
                 const FacePressure& p = solid.pressures[k];
                 const std::string key = path + "pressures." + std::to_string(k) + ".";
-                expect(p.pressures.size() == p.times.size(), key + "pressures", "there must be one for each of times", {key + "times"});
+                expect(p.pressures.size() == p.times.size(), key + "pressures", "there must be one for each of times",
+                       {key + "times"});
                 check_increasing(key + "times", p.times, "s");
             }
             for (std::size_t k = 0; k < solid.holds.size(); ++k) {
                 const Hold& h = solid.holds[k];
                 const std::string key = path + "holds." + std::to_string(k) + ".";
-                expect(h.low.has_value() == h.high.has_value(), path + "holds." + std::to_string(k), "low and high belong together");
+                expect(h.low.has_value() == h.high.has_value(), path + "holds." + std::to_string(k),
+                       "low and high belong together");
                 if (h.low && h.high)
-                    expect(h.low->x <= h.high->x && h.low->y <= h.high->y && h.low->z <= h.high->z, key + "high", "is below low", {key + "low"});
+                    expect(h.low->x <= h.high->x && h.low->y <= h.high->y && h.low->z <= h.high->z, key + "high",
+                           "is below low", {key + "low"});
             }
         }
         const auto is_known = [&](const std::string& name) {
-            return std::any_of(case_.solids.begin(), case_.solids.end(), [&](const SolidDeck& s) { return s.name == name; });
+            return std::any_of(case_.solids.begin(), case_.solids.end(),
+                               [&](const SolidDeck& s) { return s.name == name; });
         };
         for (std::size_t i = 0; i < case_.contacts.size(); ++i) {
             const ContactDeck& contact = case_.contacts[i];
             const std::string path = "contacts." + std::to_string(i) + ".";
-            expect(is_known(contact.solid), path + "solid", "there is no solid " + double_quoted(shortened(contact.solid)));
+            expect(is_known(contact.solid), path + "solid",
+                   "there is no solid " + double_quoted(shortened(contact.solid)));
             if (contact.with)
-                expect(is_known(*contact.with), path + "with", "there is no solid " + double_quoted(shortened(*contact.with)));
+                expect(is_known(*contact.with), path + "with",
+                       "there is no solid " + double_quoted(shortened(*contact.with)));
             if (contact.plane) expect(norm(contact.plane->normal) > 0, path + "plane.normal", "must not be zero");
             if (contact.tool) {
                 const RadialToolDeck& tool = *contact.tool;
-                expect(norm(tool.to - tool.from) > 0, path + "tool.to", "is the same point as `from`", {path + "tool.from"});
-                expect(tool.diameters.size() == tool.times.size(), path + "tool.diameters", "there must be one for each of times", {path + "tool.times"});
+                expect(norm(tool.to - tool.from) > 0, path + "tool.to", "is the same point as `from`",
+                       {path + "tool.from"});
+                expect(tool.diameters.size() == tool.times.size(), path + "tool.diameters",
+                       "there must be one for each of times", {path + "tool.times"});
                 check_increasing(path + "tool.times", tool.times, "s");
-                expect(!case_.numerics.solid.plane_strain, path + "tool", "is not planar; numerics.solid.plane_strain is true");
+                expect(!case_.numerics.solid.plane_strain, path + "tool",
+                       "is not planar; numerics.solid.plane_strain is true");
             }
         }
     }
@@ -208,17 +234,19 @@ private:
     void check_solid_shape(const SolidShape& s, const std::string& path) {
         const bool planar = case_.numerics.solid.plane_strain;
         if (s.type == SolidShapeType::box)
-            expect(s.to.x > s.from.x && s.to.y > s.from.y && (planar || s.to.z > s.from.z), path + "to", "must lie above `from` on every axis",
-                   {path + "from"});
+            expect(s.to.x > s.from.x && s.to.y > s.from.y && (planar || s.to.z > s.from.z), path + "to",
+                   "must lie above `from` on every axis", {path + "from"});
         if (s.type == SolidShapeType::cylinder) {
             expect(planar || norm(s.to - s.from) > 0, path + "to", "is the same point as `from`", {path + "from"});
-            expect(s.inner_diameter < s.diameter, path + "inner_diameter", "must be less than the diameter", {path + "diameter"});
+            expect(s.inner_diameter < s.diameter, path + "inner_diameter", "must be less than the diameter",
+                   {path + "diameter"});
         }
         const std::string end = path + (s.low ? "low" : "high");
         expect(s.low.has_value() == s.high.has_value(), end, "low and high go together: the corners of a box");
-        expect(!s.low || !s.high || (s.high->x > s.low->x && s.high->y > s.low->y && (planar || s.high->z > s.low->z)), path + "high",
-               "must lie above `low` on every axis", {path + "low"});
-        if (s.type == SolidShapeType::sphere) expect(!planar, path + "type", "is not planar; use a cylinder along z with numerics.solid.plane_strain");
+        expect(!s.low || !s.high || (s.high->x > s.low->x && s.high->y > s.low->y && (planar || s.high->z > s.low->z)),
+               path + "high", "must lie above `low` on every axis", {path + "low"});
+        if (s.type == SolidShapeType::sphere)
+            expect(!planar, path + "type", "is not planar; use a cylinder along z with numerics.solid.plane_strain");
         if (s.type == SolidShapeType::stent) {
             expect(!planar, path + "type", "is not planar; numerics.solid.plane_strain is true");
             expect(case_.stent.has_value(), path + "type", "needs a stent in the deck", {"stent"});
@@ -244,18 +272,22 @@ private:
             if (opening.type != OpeningType::velocity && opening.type != OpeningType::flow) is_pressure_set = true;
             if (opening.type == OpeningType::resistance && !opening.resistance)
                 expect(case_.aorta.pressure.has_value(), path,
-                       "needs a resistance, or aorta.pressure, from which it is tuned to the bed", {path + ".resistance", "aorta.pressure"});
+                       "needs a resistance, or aorta.pressure, from which it is tuned to the bed",
+                       {path + ".resistance", "aorta.pressure"});
             if (opening.waveform) check_waveform(*opening.waveform, path + ".waveform");
-            if (opening.myocardial_pressure) check_waveform(*opening.myocardial_pressure, path + ".myocardial_pressure");
+            if (opening.myocardial_pressure)
+                check_waveform(*opening.myocardial_pressure, path + ".myocardial_pressure");
             if (opening.profile == VelocityProfile::womersley)
-                expect(opening.waveform.has_value(), path + ".profile", "womersley needs a waveform: it is the profile of a pulse",
-                       {path});
+                expect(opening.waveform.has_value(), path + ".profile",
+                       "womersley needs a waveform: it is the profile of a pulse", {path});
             if (opening.profile == VelocityProfile::developed_startup)
-                expect(!opening.waveform, path + ".profile", "developed_startup needs a constant, not a waveform", {path});
+                expect(!opening.waveform, path + ".profile", "developed_startup needs a constant, not a waveform",
+                       {path});
             if (opening.profile_table) check_profile(*opening.profile_table, path + ".profile_table");
         }
         expect(case_.openings.empty() || is_pressure_set, "openings",
-               "every opening prescribes a flow; one of them must set the pressure (pressure, resistance, rcr or coronary)");
+               "every opening prescribes a flow; one of them must set the pressure (pressure, resistance, rcr or "
+               "coronary)");
     }
 
     void check_profile(const ProfileTable& table, const std::string& path) {
@@ -287,12 +319,17 @@ private:
         expect(case_.initial_velocity() != InitialVelocity::taylor_green || case_.geometry.shape, "initial.velocity",
                "taylor_green needs a box", {"geometry"});
         const std::string needs_vessel = "estimate needs a surface or a network; shapes have no centrelines";
-        expect(case_.initial_velocity() != InitialVelocity::estimate || case_.has_vessel(), "initial.velocity", needs_vessel, {"geometry"});
-        expect(case_.initial_pressure() != InitialPressure::estimate || case_.has_vessel(), "initial.pressure", needs_vessel, {"geometry"});
+        expect(case_.initial_velocity() != InitialVelocity::estimate || case_.has_vessel(), "initial.velocity",
+               needs_vessel, {"geometry"});
+        expect(case_.initial_pressure() != InitialPressure::estimate || case_.has_vessel(), "initial.pressure",
+               needs_vessel, {"geometry"});
         const bool can_be_solved = case_.has_vessel() && case_.about.mode == Mode::steady && case_.fits_cells();
-        const std::string needs_cells = "cells needs a surface or a network, walls at rest and a steady flow; start from the estimate or from rest";
-        expect(case_.initial_velocity() != InitialVelocity::cells || can_be_solved, "initial.velocity", needs_cells, {"geometry", "case.mode"});
-        expect(case_.initial_pressure() != InitialPressure::cells || can_be_solved, "initial.pressure", needs_cells, {"geometry", "case.mode"});
+        const std::string needs_cells =
+            "cells needs a surface or a network, walls at rest and a steady flow; start from the estimate or from rest";
+        expect(case_.initial_velocity() != InitialVelocity::cells || can_be_solved, "initial.velocity", needs_cells,
+               {"geometry", "case.mode"});
+        expect(case_.initial_pressure() != InitialPressure::cells || can_be_solved, "initial.pressure", needs_cells,
+               {"geometry", "case.mode"});
         if (case_.initial_pressure() == InitialPressure::linear)
             expect(!case_.openings.empty(), "initial.pressure", "linear needs openings with pressures", {"openings"});
     }
@@ -305,8 +342,8 @@ private:
             expect(time <= duration * (1 + 1e-12), key, limit, {"numerics.duration"});
         };
         if (output.average_from)
-            expect(*output.average_from < duration, "output.average_from", "is not before the end, " + format_quantity(duration, "s"),
-                   {"numerics.duration"});
+            expect(*output.average_from < duration, "output.average_from",
+                   "is not before the end, " + format_quantity(duration, "s"), {"numerics.duration"});
         if (output.interval) expect_within(*output.interval, "output.interval");
         check_names("output.probes", output.probes);
         check_names("output.profiles", output.profiles);
@@ -328,10 +365,10 @@ private:
     Mistakes& mistakes_;
 };
 
-}  // namespace
+}   // namespace
 
 void check_runs(const Case& c, const Node& root, Mistakes& mistakes) { Checker(c, root, mistakes).check_runs(); }
 
 void check_case(const Case& c, const Node& root, Mistakes& mistakes) { Checker(c, root, mistakes).check(); }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

@@ -12,4 +12,4 @@ void check_case(const Case& c, const Node& root, Mistakes& mistakes);
 /// The part of it that concerns `runs`.
 void check_runs(const Case& c, const Node& root, Mistakes& mistakes);
 
-}  // namespace patency::deck
+}   // namespace patency::deck

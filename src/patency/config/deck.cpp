@@ -26,7 +26,8 @@ std::string read_deck_text(const std::filesystem::path& path) {
     std::string text;
     text.reserve(1 << 16);
     for (std::istreambuf_iterator<char> byte(file), end; byte != end; ++byte) {
-        if (text.size() == largest_deck) throw DeckError(path.string() + ":1:1: larger than 1 MB; put tables into files of their own");
+        if (text.size() == largest_deck)
+            throw DeckError(path.string() + ":1:1: larger than 1 MB; put tables into files of their own");
         text.push_back(*byte);
     }
     if (file.bad()) throw FileError("cannot read " + path.string());
@@ -40,8 +41,9 @@ Node parse_deck(std::string_view text, const std::string& source, Mistakes& mist
     Node root = parse_yaml(text, source, mistakes);
     if (root.kind == Node::Kind::map) return root;
     if (mistakes.empty())
-        mistakes.add(root.place, "", root.kind == Node::Kind::null ? "the deck is empty; it starts with \"version: 1\""
-                                                                   : "a deck is a record of keys; it starts with \"version: 1\"");
+        mistakes.add(root.place, "",
+                     root.kind == Node::Kind::null ? "the deck is empty; it starts with \"version: 1\""
+                                                   : "a deck is a record of keys; it starts with \"version: 1\"");
     refuse(mistakes);
 }
 
@@ -60,7 +62,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal().parent_path();
 }
 
-}  // namespace
+}   // namespace
 
 Case parse_case(std::string_view text, const std::string& source, const std::filesystem::path& folder,
                 const Settings& settings) {
@@ -123,7 +125,8 @@ std::string format_case(const Case& c, const std::filesystem::path& folder) {
     Scope scope;
     scope.folder = folder;
     Node deck = write_record(table_of<Case>(), &c, scope);
-    if (Node* numerics = deck.find("numerics"); numerics && c.numerics.follows_vessel()) remove_entry(*numerics, "spacing");   // either or
+    if (Node* numerics = deck.find("numerics"); numerics && c.numerics.follows_vessel())
+        remove_entry(*numerics, "spacing");   // either or
     return format_yaml(deck);
 }
 
@@ -134,4 +137,4 @@ void write_case(const Case& c, const std::filesystem::path& path) {
     if (!file) throw FileError("cannot write " + path.string());
 }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

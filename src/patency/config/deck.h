@@ -39,4 +39,4 @@ std::string format_case(const Case& c, const std::filesystem::path& folder = {})
 /// format_case into a file (case.resolved.yaml). Throws FileError.
 void write_case(const Case& c, const std::filesystem::path& path);
 
-}  // namespace patency::deck
+}   // namespace patency::deck

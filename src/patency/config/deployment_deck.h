@@ -39,16 +39,17 @@ struct Wall {
     std::map<std::string, Vec3> velocity;   ///< m/s, by the wall's name, or "all"
     std::optional<double> thickness;        ///< m; absent: by the healthy lumen's diameter
     std::string law = "coronary_wall";      ///< a material of the table
-    Plaque plaque = Plaque::none;           ///< fills: from the lumen to the healthy one; none: the wall follows the lumen
+    Plaque plaque = Plaque::none;   ///< fills: from the lumen to the healthy one; none: the wall follows the lumen
     WallLayers layers;
-    std::optional<double> spacing;          ///< m between its particles as a solid; absent: 0.2 mm, or a quarter of the thickness
+    std::optional<double>
+        spacing;   ///< m between its particles as a solid; absent: 0.2 mm, or a quarter of the thickness
     bool operator==(const Wall&) const = default;
 };
 
 /// How the stent gets where it belongs. Diameters of a stent are outer ones.
 struct Deployment {
     DeploymentMode mode = DeploymentMode::balloon;
-    std::optional<double> diameter;           ///< m, that the balloon opens the stent to; absent: the design's nominal one
+    std::optional<double> diameter;   ///< m, that the balloon opens the stent to; absent: the design's nominal one
     std::optional<double> crimped_diameter;   ///< m; absent: the design's
     std::optional<double> predilation;        ///< m: the balloon that opens the lumen before; absent: none
     double friction = 0.1;                    ///< between stent and wall

@@ -24,10 +24,12 @@ bool is_safe_plain(std::string_view text) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     };
     if (text.empty() || text.back() == ' ' || text.starts_with("---") || text.starts_with("...")) return false;
-    if (!is_word(text[0]) && (text.size() < 2 || !is_word(text[1]) || std::string_view("+-._/").find(text[0]) == std::string_view::npos))
+    if (!is_word(text[0]) &&
+        (text.size() < 2 || !is_word(text[1]) || std::string_view("+-._/").find(text[0]) == std::string_view::npos))
         return false;
-    return std::all_of(text.begin(), text.end(),
-                       [&](char c) { return is_word(c) || std::string_view("+-._/ ^").find(c) != std::string_view::npos; });
+    return std::all_of(text.begin(), text.end(), [&](char c) {
+        return is_word(c) || std::string_view("+-._/ ^").find(c) != std::string_view::npos;
+    });
 }
 
 // As a key, or as text that must not be taken for null.
@@ -49,8 +51,9 @@ void add_block(std::string& text, const Node& node, std::size_t indent) {
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             const Node& item = node.items[i];
             text += margin + formatted_key(node.keys[i].text) + ":";
-            const bool in_line = is_leaf(item) || item.items.empty() ||
-                                 (item.kind == Node::Kind::list && std::all_of(item.items.begin(), item.items.end(), is_leaf));
+            const bool in_line =
+                is_leaf(item) || item.items.empty() ||
+                (item.kind == Node::Kind::list && std::all_of(item.items.begin(), item.items.end(), is_leaf));
             if (in_line) {
                 text += " " + format_flow(item) + "\n";
             } else {
@@ -65,7 +68,7 @@ void add_block(std::string& text, const Node& node, std::size_t indent) {
     }
 }
 
-}  // namespace
+}   // namespace
 
 const Node* Node::find(std::string_view key) const {
     for (std::size_t i = 0; i < keys.size(); ++i)
@@ -141,7 +144,8 @@ std::string Mistakes::report() const {
     });
     std::string text;
     for (const Mistake* m : ordered) text += shown(m->place) + ": " + m->key + m->sentence + m->note + "\n";
-    return text + std::to_string(size()) + (are_full() ? " or more" : "") + (size() == 1 ? " mistake" : " mistakes") + "; nothing was run.";
+    return text + std::to_string(size()) + (are_full() ? " or more" : "") + (size() == 1 ? " mistake" : " mistakes") +
+           "; nothing was run.";
 }
 
 Place place_of(const Node& root, std::string_view path) {
@@ -150,7 +154,8 @@ Place place_of(const Node& root, std::string_view path) {
         const Node* below = node->find(key);
         std::size_t index = 0;
         const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-        if (node->kind == Node::Kind::list && error == std::errc() && index < node->items.size()) below = &node->items[index];
+        if (node->kind == Node::Kind::list && error == std::errc() && index < node->items.size())
+            below = &node->items[index];
         if (!below) break;
         node = below;
     }
@@ -182,7 +187,8 @@ void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mist
             continue;
         }
         if (node->kind == Node::Kind::scalar)
-            return mistakes.add(value.place, path, double_quoted(key) + " cannot be set: what stands above it is a single value");
+            return mistakes.add(value.place, path,
+                                double_quoted(key) + " cannot be set: what stands above it is a single value");
         if (!node->find(key)) {
             Node empty;
             empty.place = value.place;
@@ -230,4 +236,4 @@ std::string format_yaml(const Node& root) {
     return text;
 }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

@@ -19,8 +19,8 @@ struct Place {
 struct Node {
     enum class Kind { null, scalar, list, map };
     Kind kind = Kind::null;
-    std::string text;          ///< of a scalar
-    bool in_quotes = false;    ///< a scalar written in quotes is text, whatever it looks like
+    std::string text;         ///< of a scalar
+    bool in_quotes = false;   ///< a scalar written in quotes is text, whatever it looks like
     Place place;
     std::vector<Node> keys;    ///< of a map, scalars; keys[i] belongs to items[i]
     std::vector<Node> items;   ///< of a map or a list
@@ -83,4 +83,4 @@ std::string format_yaml(const Node& root);
 /// The tree as YAML on one line.
 std::string format_flow(const Node& node);
 
-}  // namespace patency::deck
+}   // namespace patency::deck

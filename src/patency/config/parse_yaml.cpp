@@ -16,7 +16,7 @@ namespace patency::deck {
 
 namespace {
 
-constexpr int max_depth = 32;               // a deck needs seven
+constexpr int max_depth = 32;                // a deck needs seven
 constexpr std::size_t max_values = 50'000;   // a waveform of 10 000 points has 20 000
 
 struct Refused {
@@ -64,7 +64,7 @@ private:
         Node node;
         YAML::Mark mark;
         YAML::anchor_t anchor;
-        bool has_key = false;                // of a map: the next event is the value
+        bool has_key = false;                 // of a map: the next event is the value
         std::map<std::string, int> lines{};   // of a map: where each key stands
     };
 
@@ -79,7 +79,8 @@ private:
     void count(const YAML::Mark& mark, std::size_t more) {
         values_ += more;
         if (values_ > max_values)
-            throw Refused{mark, "more than 50000 values (aliases counted as often as they are used); put tables into files"};
+            throw Refused{mark,
+                          "more than 50000 values (aliases counted as often as they are used); put tables into files"};
     }
 
     void open(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind) {
@@ -127,7 +128,8 @@ private:
         const Node key = parent.node.keys.back();
         const auto [first, is_new] = parent.lines.emplace(key.text, key.place.line);
         if (!is_new) {
-            mistakes_.add(key.place, path_to(key.text), "repeated; it stands already in line " + std::to_string(first->second));
+            mistakes_.add(key.place, path_to(key.text),
+                          "repeated; it stands already in line " + std::to_string(first->second));
             parent.node.keys.pop_back();
             return;
         }
@@ -140,8 +142,10 @@ private:
         std::string path;
         for (std::size_t i = 0; i + 1 < open_.size(); ++i) {
             const Open& above = open_[i];
-            if (above.node.kind == Node::Kind::list) path += std::to_string(above.node.items.size());
-            else path += above.has_key ? above.node.keys.back().text : "?";
+            if (above.node.kind == Node::Kind::list)
+                path += std::to_string(above.node.items.size());
+            else
+                path += above.has_key ? above.node.keys.back().text : "?";
             path += '.';
         }
         return path + key;
@@ -157,7 +161,7 @@ private:
     Place second_document_;
 };
 
-}  // namespace
+}   // namespace
 
 Node parse_yaml(std::string_view text, const std::string& source_name, Mistakes& mistakes) {
     const auto source = std::make_shared<const std::string>(source_name);
@@ -170,19 +174,19 @@ Node parse_yaml(std::string_view text, const std::string& source_name, Mistakes&
     std::istringstream stream{std::string(text)};
     try {
         YAML::Parser parser(stream);
-        while (builder.documents() < 2 && parser.HandleNextDocument(builder)) {
-        }
+        while (builder.documents() < 2 && parser.HandleNextDocument(builder)) {}
         if (builder.documents() > 1)
             mistakes.add(builder.second_document(), "", "a second document starts here; a deck is one document");
     } catch (const Refused& refused) {
         mistakes.add({source, refused.mark.line + 1, refused.mark.column + 1}, "", refused.sentence);
     } catch (const YAML::Exception& e) {
         const bool has_mark = !e.mark.is_null();
-        mistakes.add(has_mark ? Place{source, e.mark.line + 1, e.mark.column + 1} : start, "", "not valid YAML: " + e.msg);
+        mistakes.add(has_mark ? Place{source, e.mark.line + 1, e.mark.column + 1} : start, "",
+                     "not valid YAML: " + e.msg);
     }
     Node root = builder.take();
     if (!root.place.source) root.place = start;
     return root;
 }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

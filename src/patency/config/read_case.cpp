@@ -37,7 +37,8 @@ std::vector<std::string> as_strings(const Words& words) { return {words.begin(),
 // A record being read: which of its keys may, must and do stand in the deck.
 class RecordReader {
 public:
-    RecordReader(const Node& node, const Table& table, const Scope& scope) : node_(node), table_(table), scope_(scope) {}
+    RecordReader(const Node& node, const Table& table, const Scope& scope)
+        : node_(node), table_(table), scope_(scope) {}
 
     void read(void* record) {
         for (const Row& row : table_.rows) read_row(row, record);
@@ -80,9 +81,11 @@ private:
             if (may == true && holds(row.need) == true) report_missing(row, scope);
         } else if (may == false) {
             const std::vector<std::string>& words_of_key = row.only->words;
-            if (row.only->absent) scope.mistake(*given, "does not go together with " + row.only->key);
-            else scope.mistake(*given, "belongs to " + row.only->key + " " + join(words_of_key, ", ", " or ") + ", not to " +
-                                      *word_at(row.only->key));
+            if (row.only->absent)
+                scope.mistake(*given, "does not go together with " + row.only->key);
+            else
+                scope.mistake(*given, "belongs to " + row.only->key + " " + join(words_of_key, ", ", " or ") +
+                                          ", not to " + *word_at(row.only->key));
         } else {
             row.read(*given, scope, record);
         }
@@ -113,12 +116,13 @@ private:
         for (const std::string& key : choice.keys)
             if (node_.find(key)) given.push_back(key);
         if (given.empty() && choice.required)
-            scope_.mistakes->add(node_.place, scope_.path, "needs " + std::string(choice.keys.size() == 2 ? "either " : "one of ") +
-                                                               join(choice.keys, ", ", " or "));
+            scope_.mistakes->add(node_.place, scope_.path,
+                                 "needs " + std::string(choice.keys.size() == 2 ? "either " : "one of ") +
+                                     join(choice.keys, ", ", " or "));
         if (given.size() > 1)
-            scope_.below(given[1]).mistake(*node_.find(given[1]),
-                                           "stands beside " + given[0] + "; only one of " +
-                                               join(choice.keys, ", ", " and ") + " may be given");
+            scope_.below(given[1]).mistake(
+                *node_.find(given[1]),
+                "stands beside " + given[0] + "; only one of " + join(choice.keys, ", ", " and ") + " may be given");
     }
 
     void report_unknown(const Node& key) const {
@@ -142,7 +146,7 @@ private:
     const Scope& scope_;
 };
 
-}  // namespace
+}   // namespace
 
 Scope Scope::below(std::string_view key) const {
     Scope scope = *this;
@@ -164,7 +168,8 @@ std::optional<int> read_integer(const Node& node, const Row& row, const Scope& s
     const char* last = node.text.data() + node.text.size();
     const auto [end, error] = std::from_chars(node.text.data(), last, value);
     if (node.in_quotes || end != last || error == std::errc::invalid_argument)
-        scope.mistake(node, kind_name(node) + " is not a whole number" + (node.in_quotes ? " but text; leave the quotes out" : ""));
+        scope.mistake(node, kind_name(node) + " is not a whole number" +
+                                (node.in_quotes ? " but text; leave the quotes out" : ""));
     else if (error == std::errc::result_out_of_range || !row.range.contains(value))
         scope.mistake(node, kind_name(node) + " is out of range: " + range_text(row));
     else
@@ -261,7 +266,8 @@ bool expect_map(const Node& node, const Row& row, const Scope& scope) {
     }
     for (const Node& key : node.keys)
         if (row.form.item[0].kind != Form::Kind::kept && !is_plain_name(key.text))   // kept: the keys are paths
-            scope.mistake(key, double_quoted(shortened(key.text)) + " is no name; names have letters, digits, _ and -, at most 64");
+            scope.mistake(key, double_quoted(shortened(key.text)) +
+                                   " is no name; names have letters, digits, _ and -, at most 64");
     return true;
 }
 
@@ -272,4 +278,4 @@ void read_record(const Node& node, const Table& table, void* record, const Scope
     scope.mistake(node, "is " + kind_name(node) + "; a record of keys is needed: " + join(keys, ", "));
 }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

@@ -18,4 +18,4 @@ std::string schema_markdown();
 void write_json_schema(const std::filesystem::path& path);
 void write_schema_markdown(const std::filesystem::path& path);
 
-}  // namespace patency::deck
+}   // namespace patency::deck

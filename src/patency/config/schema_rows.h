@@ -8,7 +8,9 @@
 
 namespace patency::deck {
 
-inline Condition where(std::string key, std::vector<std::string> words_of_key) { return {std::move(key), std::move(words_of_key)}; }
+inline Condition where(std::string key, std::vector<std::string> words_of_key) {
+    return {std::move(key), std::move(words_of_key)};
+}
 
 inline Condition without(std::string key) { return {.key = std::move(key), .absent = true}; }
 

@@ -41,9 +41,11 @@ Json as_json(const Node& node) {
 
 Json number_schema(const Row& row) {
     if (row.unit == signal_unit) {   // the dimension is the opening's, which a schema cannot follow
-        return {{"type", "string"}, {"anyOf", {{{"pattern", quantity_pattern(Dimension::velocity)}},
-                                               {{"pattern", quantity_pattern(Dimension::flow)}},
-                                               {{"pattern", quantity_pattern(Dimension::pressure)}}}}};
+        return {{"type", "string"},
+                {"anyOf",
+                 {{{"pattern", quantity_pattern(Dimension::velocity)}},
+                  {{"pattern", quantity_pattern(Dimension::flow)}},
+                  {{"pattern", quantity_pattern(Dimension::pressure)}}}}};
     }
     if (!row.unit.empty()) return {{"type", "string"}, {"pattern", quantity_pattern(find_unit(row.unit)->dimension)}};
     Json schema{{"type", row.form.kind == Form::Kind::integer ? "integer" : "number"}};
@@ -71,7 +73,9 @@ Json form_schema(const Form& form, const Row& row) {
             return {{"type", "array"}, {"items", item}, {"minItems", 3}, {"maxItems", 3}};
         }
         case Form::Kind::list: {
-            Json schema{{"type", "array"}, {"items", form_schema(form.item[0], row)}, {"minItems", std::max<std::size_t>(1, row.count)}};
+            Json schema{{"type", "array"},
+                        {"items", form_schema(form.item[0], row)},
+                        {"minItems", std::max<std::size_t>(1, row.count)}};
             if (row.count != 0) schema["maxItems"] = row.count;
             return schema;
         }
@@ -90,11 +94,12 @@ std::string help_text(const Row& row) {
 // {"if": the condition, "then": consequence}; the consequence alone if the condition always holds.
 Json conditional(const std::optional<Condition>& condition, const Table& table, Json consequence) {
     if (!condition || condition->key.empty()) return consequence;
-    if (condition->absent) return {{"if", {{"not", {{"required", {condition->key}}}}}}, {"then", std::move(consequence)}};
+    if (condition->absent)
+        return {{"if", {{"not", {{"required", {condition->key}}}}}}, {"then", std::move(consequence)}};
     Json test{{"properties", {{condition->key, {{"enum", condition->words}}}}}};
     const auto standard = table.standard(*table.find(condition->key), {});
-    const bool holds_without = standard && std::find(condition->words.begin(), condition->words.end(), standard->text) !=
-                                               condition->words.end();
+    const bool holds_without = standard && std::find(condition->words.begin(), condition->words.end(),
+                                                     standard->text) != condition->words.end();
     if (!holds_without) test["required"] = {condition->key};   // an absent key has its default
     return {{"if", test}, {"then", std::move(consequence)}};
 }
@@ -127,7 +132,9 @@ Json record_schema(const Table& table) {
         }
     }
     for (const Choice& choice : table.choices) rules.push_back(conditional(choice.only, table, one_of_keys(choice)));
-    Json schema{{"type", "object"}, {"description", table.help}, {"properties", std::move(properties)},
+    Json schema{{"type", "object"},
+                {"description", table.help},
+                {"properties", std::move(properties)},
                 {"additionalProperties", false}};
     if (!required.empty()) schema["required"] = std::move(required);
     if (!rules.empty()) schema["allOf"] = std::move(rules);
@@ -146,7 +153,8 @@ std::string form_text(const Form& form, const Row& row) {
         case Form::Kind::number: return number_text();
         case Form::Kind::text: return "text";
         case Form::Kind::path: return "file";
-        case Form::Kind::word: return join(std::vector<std::string>(form.words.begin(), form.words.end()), ", ", " or ");
+        case Form::Kind::word:
+            return join(std::vector<std::string>(form.words.begin(), form.words.end()), ", ", " or ");
         case Form::Kind::kept: return "any";
         case Form::Kind::vector: return "three of " + number_text();
         case Form::Kind::flags: return "three of true or false";
@@ -166,23 +174,25 @@ std::string condition_text(const Condition& condition) {
 std::string presence_text(const Row& row, const Table& table) {
     std::vector<std::string> parts;
     const bool is_needed = row.need.has_value();
-    if (is_needed && !row.need->key.empty()) parts.push_back("required for " + condition_text(*row.need));
-    else if (row.only) parts.push_back((is_needed ? "required for " : "for ") + condition_text(*row.only));
-    else if (is_needed) parts.push_back("required");
+    if (is_needed && !row.need->key.empty())
+        parts.push_back("required for " + condition_text(*row.need));
+    else if (row.only)
+        parts.push_back((is_needed ? "required for " : "for ") + condition_text(*row.only));
+    else if (is_needed)
+        parts.push_back("required");
     if (const auto standard = table.standard(row, {})) parts.push_back("default `" + format_flow(*standard) + "`");
     return join(parts, "; ");
 }
 
-std::string in_cell(std::string_view text) {
-    return join(split(text, '|'), "\\|");
-}
+std::string in_cell(std::string_view text) { return join(split(text, '|'), "\\|"); }
 
 // The section of a record, then those of the records in it.
 void add_section(std::string& text, const std::string& path, const Table& table) {
     text += fmt::format("\n## {}\n\n{}\n", path.empty() ? "The deck" : fmt::format("`{}`", path), table.help);
     for (const Choice& choice : table.choices)
-        text += fmt::format("\n{} one of {}{}.\n", choice.required ? "Exactly" : "At most", join(choice.keys, ", ", " and "),
-                            choice.only ? " for " + condition_text(*choice.only) : "");
+        text +=
+            fmt::format("\n{} one of {}{}.\n", choice.required ? "Exactly" : "At most",
+                        join(choice.keys, ", ", " and "), choice.only ? " for " + condition_text(*choice.only) : "");
     text += "\n| key | value | accepted | presence | what it is | example |\n|---|---|---|---|---|---|\n";
     for (const Row& row : table.rows) {
         const std::string example = example_text(row);
@@ -201,7 +211,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
     if (!file) throw FileError("cannot write " + path.string());
 }
 
-}  // namespace
+}   // namespace
 
 std::string schema_json() {
     Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "patency deck"}};
@@ -210,8 +220,9 @@ std::string schema_json() {
 }
 
 std::string schema_markdown() {
-    std::string text = "# Keys of the deck\n\nGenerated from the program's schema. Every value with a dimension is text with "
-                       "its unit.\n\n| dimension | units |\n|---|---|\n";
+    std::string text =
+        "# Keys of the deck\n\nGenerated from the program's schema. Every value with a dimension is text with "
+        "its unit.\n\n| dimension | units |\n|---|---|\n";
     for (std::size_t i = 1; i <= std::size_t(Dimension::angle); ++i)
         text += fmt::format("| {} | {} |\n", dimension_name(Dimension(i)), join(unit_names(Dimension(i)), ", "));
     add_section(text, "", table_of<Case>());
@@ -221,4 +232,4 @@ std::string schema_markdown() {
 void write_json_schema(const std::filesystem::path& path) { write_text(path, schema_json()); }
 void write_schema_markdown(const std::filesystem::path& path) { write_text(path, schema_markdown()); }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

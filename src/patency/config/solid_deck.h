@@ -29,10 +29,10 @@ inline std::vector<std::string_view> words(Relaxation) { return {"none", "adapti
 /// A solid by its measures, filled with particles that fit it: rows of a box, rings of a cylinder; or the deck's stent.
 struct SolidShape {
     SolidShapeType type = SolidShapeType::box;
-    Vec3 from, to;               ///< box: corners; cylinder: ends of its axis (planar: any along z); m
-    Vec3 centre;                 ///< sphere: m
-    double diameter = 0;         ///< cylinder, sphere: m
-    double inner_diameter = 0;   ///< cylinder: m; 0: it is full
+    Vec3 from, to;                   ///< box: corners; cylinder: ends of its axis (planar: any along z); m
+    Vec3 centre;                     ///< sphere: m
+    double diameter = 0;             ///< cylinder, sphere: m
+    double inner_diameter = 0;       ///< cylinder: m; 0: it is full
     std::optional<Vec3> low, high;   ///< cylinder, sphere: corners of a box, m; what lies out of it is cut off
     bool operator==(const SolidShape&) const = default;
 };
@@ -59,10 +59,10 @@ struct SolidMaterialChoice {
 /// Particles within a box of the reference configuration, or those that lie at a face, some of whose axes are told how to move.
 struct Hold {   // exactly one of face, low + high
     std::optional<std::string> face;
-    std::optional<Vec3> low, high;               ///< m, corners of the box
+    std::optional<Vec3> low, high;   ///< m, corners of the box
     std::array<bool, 3> axes{true, true, true};
-    Vec3 displacement;                           ///< m, of the held axes, in the end
-    double ramp = 0;                             ///< s in which it is reached, smoothly
+    Vec3 displacement;   ///< m, of the held axes, in the end
+    double ramp = 0;     ///< s in which it is reached, smoothly
     bool operator==(const Hold&) const = default;
 };
 
@@ -106,16 +106,16 @@ struct ContactDeck {   // exactly one of with, plane, tool
     std::optional<std::string> with;   ///< the other solid; the same: parts of it touch each other
     std::optional<Plane> plane;        ///< rigid, at rest
     std::optional<RadialToolDeck> tool;
-    double friction = 0;               ///< Coulomb's coefficient
-    double damping = 0;                ///< of the approach, over the critical
+    double friction = 0;   ///< Coulomb's coefficient
+    double damping = 0;    ///< of the approach, over the critical
     bool operator==(const ContactDeck&) const = default;
 };
 
 struct SolidSettings {
-    bool plane_strain = false;        ///< two-dimensional, z = 0
-    double smoothing_ratio = 1.15;    ///< h over spacing
-    double hourglass = 1;             ///< over the shear modulus
-    double viscosity = 0;             ///< alpha
+    bool plane_strain = false;       ///< two-dimensional, z = 0
+    double smoothing_ratio = 1.15;   ///< h over spacing
+    double hourglass = 1;            ///< over the shear modulus
+    double viscosity = 0;            ///< alpha
     double cfl = 0.6;
     Relaxation relaxation = Relaxation::none;
     bool operator==(const SolidSettings&) const = default;

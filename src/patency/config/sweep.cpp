@@ -42,9 +42,12 @@ std::string_view last_part(std::string_view key) { return key.substr(key.rfind('
 std::string file_word(std::string_view text) {
     std::string word;
     for (const char c : text.substr(0, 40)) {
-        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
-        if (is_plain) word += c;
-        else if (!word.empty() && word.back() != '_') word += '_';
+        const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+                              c == '-' || c == '+';
+        if (is_plain)
+            word += c;
+        else if (!word.empty() && word.back() != '_')
+            word += '_';
     }
     while (!word.empty() && word.back() == '_') word.pop_back();
     return word;
@@ -60,7 +63,8 @@ std::string short_key(const std::vector<SweepAxis>& axes, const SweepAxis& axis)
 std::string name_of(const std::vector<SweepAxis>& axes, const std::vector<std::string>& values) {
     std::vector<std::string> parts;
     for (std::size_t a = 0; a < axes.size(); ++a)
-        if (axes[a].values.size() > 1) parts.push_back(file_word(short_key(axes, axes[a])) + "=" + file_word(values[a]));
+        if (axes[a].values.size() > 1)
+            parts.push_back(file_word(short_key(axes, axes[a])) + "=" + file_word(values[a]));
     return join(parts, ",");
 }
 
@@ -68,7 +72,10 @@ std::string name_of(const std::vector<SweepAxis>& axes, const std::vector<std::s
 
 SweepAxis parse_axis(std::string_view setting) {
     const std::size_t equals = setting.find('=');
-    const auto wrong = [&](std::string_view why) { return UsageError(fmt::format("--set {}: {}; it is key=value, or key=value,value...", double_quoted(shortened(setting)), why)); };
+    const auto wrong = [&](std::string_view why) {
+        return UsageError(fmt::format("--set {}: {}; it is key=value, or key=value,value...",
+                                      double_quoted(shortened(setting)), why));
+    };
     if (equals == setting.npos || trimmed(setting.substr(0, equals)).empty()) throw wrong("a key is missing");
     SweepAxis axis{std::string(trimmed(setting.substr(0, equals))), split_values(setting.substr(equals + 1))};
     std::set<std::string> known;
@@ -83,7 +90,8 @@ std::vector<SweepPoint> combine(const std::vector<SweepAxis>& axes) {
     std::set<std::string> keys;
     bool varies = false;
     for (const SweepAxis& axis : axes) {
-        if (!keys.insert(axis.key).second) throw UsageError(fmt::format("--set: {} is set twice; give its values with commas between them", axis.key));
+        if (!keys.insert(axis.key).second)
+            throw UsageError(fmt::format("--set: {} is set twice; give its values with commas between them", axis.key));
         varies = varies || axis.values.size() > 1;
     }
     if (!varies) throw UsageError("nothing varies: give a key several values, --set key=value,value");
@@ -102,7 +110,8 @@ std::vector<SweepPoint> combine(const std::vector<SweepAxis>& axes) {
     for (SweepPoint& point : points) {
         const std::string name = name_of(axes, point.values);
         point.name = name;
-        for (int n = 2; !names.insert(point.name).second; ++n) point.name = fmt::format("{}_{}", name, n);   // alike but for signs a folder cannot have
+        for (int n = 2; !names.insert(point.name).second; ++n)
+            point.name = fmt::format("{}_{}", name, n);   // alike but for signs a folder cannot have
     }
     return points;
 }

@@ -18,7 +18,7 @@ struct SweepAxis {
 SweepAxis parse_axis(std::string_view setting);
 
 struct SweepPoint {
-    std::string name;                  ///< fit for a folder, made of the values alone: "spacing=0.2_mm,density=1060_kg_m_3"
+    std::string name;   ///< fit for a folder, made of the values alone: "spacing=0.2_mm,density=1060_kg_m_3"
     std::vector<std::string> values;   ///< one for each axis
 };
 

@@ -32,13 +32,14 @@ std::string list_of(const std::string& item, std::size_t count) {
     return text.append(join(std::vector<std::string>(count, item), ", ")).append("]");
 }
 
-}  // namespace
+}   // namespace
 
 std::string example_text(const Row& row) {
     const std::string_view unit = row.unit == signal_unit ? "mL/min" : std::string_view(row.unit);
     std::string quantity;
     if (!unit.empty())
-        quantity = double_quoted(row.example.empty() ? dimension_example(find_unit(unit)->dimension) : std::string_view(row.example));
+        quantity = double_quoted(row.example.empty() ? dimension_example(find_unit(unit)->dimension)
+                                                     : std::string_view(row.example));
     const std::size_t count = row.form.kind == Form::Kind::vector ? 3 : row.count == 0 ? 2 : row.count;
     switch (row.form.kind) {
         case Form::Kind::number: return unit.empty() ? row.example : quantity;
@@ -106,9 +107,10 @@ Node write_record(const Table& table, const void* record, const Scope& scope) {
         Scope below = inner;
         if (row.signal) below.signal = row.signal;
         std::optional<Node> value = row.write(record, below);
-        if (value && !(value->kind == Node::Kind::map && value->items.empty())) add_entry(map, row.key, std::move(*value));
+        if (value && !(value->kind == Node::Kind::map && value->items.empty()))
+            add_entry(map, row.key, std::move(*value));
     }
     return map;
 }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

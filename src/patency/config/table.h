@@ -59,9 +59,9 @@ struct Table;
 struct Form {
     enum class Kind { boolean, integer, number, text, path, word, kept, vector, flags, list, map, record };
     Kind kind = Kind::text;
-    Words words{};                          ///< of a word
-    std::vector<Form> item{};                ///< one: of a list or a map
-    const Table& (*table)() = nullptr;      ///< of a record
+    Words words{};                       ///< of a word
+    std::vector<Form> item{};            ///< one: of a list or a map
+    const Table& (*table)() = nullptr;   ///< of a record
 };
 
 /// The unit of values whose dimension is that of the enclosing opening's type.
@@ -70,12 +70,12 @@ inline constexpr std::string_view signal_unit = "signal";
 struct Row {
     std::string key{};
     std::string help{};
-    std::string unit{};               ///< of numbers: the one we write; its dimension is the one needed
-    Range range{};                    ///< of numbers, of each in a list or vector
-    std::string example{};            ///< as it would stand in a deck; the dimension's own if empty
-    std::size_t count = 0;          ///< items of a list; 0: any number but none
-    std::optional<Condition> only{};  ///< the key may stand only there
-    std::optional<Condition> need{};  ///< the key must stand there
+    std::string unit{};                  ///< of numbers: the one we write; its dimension is the one needed
+    Range range{};                       ///< of numbers, of each in a list or vector
+    std::string example{};               ///< as it would stand in a deck; the dimension's own if empty
+    std::size_t count = 0;               ///< items of a list; 0: any number but none
+    std::optional<Condition> only{};     ///< the key may stand only there
+    std::optional<Condition> need{};     ///< the key must stand there
     std::optional<Dimension> signal{};   ///< of what stands below the key, whatever the record's `type` says
 
     // These follow from the member the row is bound to.
@@ -92,7 +92,7 @@ struct Row {
 /// Keys that exclude each other.
 struct Choice {
     std::vector<std::string> keys{};
-    bool required = true;             ///< one of them must stand there
+    bool required = true;   ///< one of them must stand there
     std::optional<Condition> only{};
 };
 
@@ -160,19 +160,32 @@ using Flags = std::array<bool, 3>;
 template <class M>
 Form form_of() {
     using enum Form::Kind;
-    if constexpr (Is<M>::optional) return form_of<typename M::value_type>();
-    else if constexpr (Is<M>::list) return {.kind = list, .item = {form_of<typename M::value_type>()}};
-    else if constexpr (Is<M>::map) return {.kind = map, .item = {form_of<typename M::mapped_type>()}};
-    else if constexpr (std::is_same_v<M, bool>) return {.kind = boolean};
-    else if constexpr (std::is_same_v<M, int>) return {.kind = integer};
-    else if constexpr (std::is_same_v<M, double>) return {.kind = number};
-    else if constexpr (std::is_same_v<M, std::string>) return {.kind = text};
-    else if constexpr (std::is_same_v<M, std::filesystem::path>) return {.kind = path};
-    else if constexpr (std::is_same_v<M, Kept>) return {.kind = kept};
-    else if constexpr (std::is_same_v<M, Vec3>) return {.kind = vector};
-    else if constexpr (std::is_same_v<M, Flags>) return {.kind = flags};
-    else if constexpr (std::is_enum_v<M>) return {.kind = word, .words = words(M{}), .item = {}};
-    else return {.kind = record, .table = &table_of<M>};
+    if constexpr (Is<M>::optional)
+        return form_of<typename M::value_type>();
+    else if constexpr (Is<M>::list)
+        return {.kind = list, .item = {form_of<typename M::value_type>()}};
+    else if constexpr (Is<M>::map)
+        return {.kind = map, .item = {form_of<typename M::mapped_type>()}};
+    else if constexpr (std::is_same_v<M, bool>)
+        return {.kind = boolean};
+    else if constexpr (std::is_same_v<M, int>)
+        return {.kind = integer};
+    else if constexpr (std::is_same_v<M, double>)
+        return {.kind = number};
+    else if constexpr (std::is_same_v<M, std::string>)
+        return {.kind = text};
+    else if constexpr (std::is_same_v<M, std::filesystem::path>)
+        return {.kind = path};
+    else if constexpr (std::is_same_v<M, Kept>)
+        return {.kind = kept};
+    else if constexpr (std::is_same_v<M, Vec3>)
+        return {.kind = vector};
+    else if constexpr (std::is_same_v<M, Flags>)
+        return {.kind = flags};
+    else if constexpr (std::is_enum_v<M>)
+        return {.kind = word, .words = words(M{}), .item = {}};
+    else
+        return {.kind = record, .table = &table_of<M>};
 }
 
 template <class M, class V>
@@ -257,7 +270,7 @@ std::optional<Node> write_value(const M& member, const Row& row, const Scope& sc
     }
 }
 
-}  // namespace detail
+}   // namespace detail
 
 /// Bind a row to the member that holds its value.
 template <class T, class M>
@@ -283,4 +296,4 @@ Table make_table(std::string help, std::vector<Row> rows, std::vector<Choice> ch
     return {std::move(help), std::move(rows), std::move(choices), standard};
 }
 
-}  // namespace patency::deck
+}   // namespace patency::deck

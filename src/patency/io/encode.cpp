@@ -27,8 +27,8 @@ std::string chunk(std::string_view type, std::string_view data) {
 std::string deflated(std::string_view bytes) {
     uLongf size = compressBound(uLong(bytes.size()));
     std::string result(size, '\0');
-    if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), uLong(bytes.size()),
-                  Z_BEST_COMPRESSION) != Z_OK)
+    if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                  uLong(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
         throw std::bad_alloc();   // the only thing that can go wrong with room enough
     result.resize(size);
     return result;

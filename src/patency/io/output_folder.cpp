@@ -25,12 +25,11 @@ constexpr std::string_view marker_text =
 
 /// The results of every run, beside the .pvd files.
 constexpr std::string_view result_folders[] = {"checkpoint", "frames"};
-constexpr std::string_view result_files[] = {"summary.json",  "timing.json", "pullback.csv", "sections.csv",
-                                             "waveforms.csv", "report.html", "log.txt",      "case.resolved.yaml",
-                                             "wall.vtp",      "centreline.vtp", "cut.vtp",      "streamlines.vtp",
-                                             "offenders.vtp", "energies.csv",   "lumen_after.stl", "lumen_after.vtp",
-                                             "case_after.yaml", "origin.json", "deployment.csv", "stent.csv",  "stent.vtp",
-                                             "sweep.json", "sweep.csv"};
+constexpr std::string_view result_files[] = {
+    "summary.json",   "timing.json",        "pullback.csv",    "sections.csv",    "waveforms.csv",   "report.html",
+    "log.txt",        "case.resolved.yaml", "wall.vtp",        "centreline.vtp",  "cut.vtp",         "streamlines.vtp",
+    "offenders.vtp",  "energies.csv",       "lumen_after.stl", "lumen_after.vtp", "case_after.yaml", "origin.json",
+    "deployment.csv", "stent.csv",          "stent.vtp",       "sweep.json",      "sweep.csv"};
 
 void make_folder(const fs::path& path) {
     std::error_code error;

@@ -73,13 +73,15 @@ void refuse_file(const SurfaceBytes& file, std::string_view reason) {
     throw FileError(fmt::format("cannot read '{}': {}", file.path.string(), reason));
 }
 
-Surface read_surface(const std::filesystem::path& path, std::string_view unit, std::string_view space, std::optional<int> label) {
+Surface read_surface(const std::filesystem::path& path, std::string_view unit, std::string_view space,
+                     std::optional<int> label) {
     if (!space.empty() && space != "LPS" && space != "RAS")
         throw UsageError(fmt::format("'{}' is no space; it is LPS or RAS.", shortened(space)));
     const std::string bytes = read_file(path);
     if (is_image(bytes)) {
         if (!unit.empty() && unit != "mm")
-            throw UsageError(fmt::format("'{}' is an image, which knows its unit: leave {} out.", path.string(), shortened(unit)));
+            throw UsageError(
+                fmt::format("'{}' is an image, which knows its unit: leave {} out.", path.string(), shortened(unit)));
         Surface surface = make_image_surface(parse_image(path, bytes), label);
         if (!space.empty()) surface.space = space;
         return surface;
@@ -110,7 +112,8 @@ void write_surface(const std::filesystem::path& path, const Surface& surface) {
 void write_stl(const std::filesystem::path& path, const Surface& surface, std::string_view unit) {
     const std::vector<std::string> units = unit_names(Dimension::length);
     if (std::find(units.begin(), units.end(), unit) == units.end())
-        throw UsageError(fmt::format("'{}' is no unit of a surface; it is one of {}.", shortened(unit), join(units, ", ", " or ")));
+        throw UsageError(
+            fmt::format("'{}' is no unit of a surface; it is one of {}.", shortened(unit), join(units, ", ", " or ")));
     const double per_metre = in_unit(1, unit);
     std::string bytes = surface.space.empty() ? "" : "SPACE=" + surface.space;   // as 3D Slicer marks it
     bytes.resize(80, ' ');
@@ -118,7 +121,8 @@ void write_stl(const std::filesystem::path& path, const Surface& surface, std::s
     append(std::uint32_t(surface.triangles.size()));
     for (const Triangle& t : surface.triangles) {
         const Vec3 n = area_vector(surface, t), unit_normal = norm(n) > 0 ? n / norm(n) : Vec3{};
-        const std::array<Vec3, 4> vectors = {unit_normal, per_metre * surface.points[t[0]], per_metre * surface.points[t[1]], per_metre * surface.points[t[2]]};
+        const std::array<Vec3, 4> vectors = {unit_normal, per_metre * surface.points[t[0]],
+                                             per_metre * surface.points[t[1]], per_metre * surface.points[t[2]]};
         for (const Vec3& v : vectors)
             for (const double c : {v.x, v.y, v.z}) append(float(c));
         append(std::uint16_t(0));

@@ -17,7 +17,8 @@ namespace patency {
 /// An image becomes a surface by its label (make_image_surface); images know their unit, so `unit` is empty or mm then.
 /// Throws FileError for what cannot be read, GeometryError for a surface without triangles, UsageError for another unit or
 /// space.
-Surface read_surface(const std::filesystem::path& path, std::string_view unit, std::string_view space = {}, std::optional<int> label = {});
+Surface read_surface(const std::filesystem::path& path, std::string_view unit, std::string_view space = {},
+                     std::optional<int> label = {});
 
 /// The surface as VTP: mm, its unit and the mark SPACE in FieldData, face_ids as ModelFaceID. Throws FileError.
 void write_surface(const std::filesystem::path& path, const Surface& surface);

@@ -30,7 +30,7 @@ Surface parse_legacy_vtk(const SurfaceBytes& file);
 
 struct CentrelineData {
     std::vector<Vec3> points;
-    std::vector<double> radii;                          ///< one per point
+    std::vector<double> radii;                         ///< one per point
     std::vector<std::array<std::uint32_t, 2>> edges;   ///< between points
     std::string space;
 };

@@ -146,9 +146,10 @@ void draw_lines(std::string& svg, const DrawnLines& drawn, const Page& page) {
             x = next_x, y = next_y;
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", x, y);
         }
-        svg += fmt::format("<path fill=\"none\" stroke=\"#fff\" stroke-width=\"3.5\" d=\"{0}\"/>"
-                           "<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" d=\"{0}\"/>\n",
-                           path);
+        svg += fmt::format(
+            "<path fill=\"none\" stroke=\"#fff\" stroke-width=\"3.5\" d=\"{0}\"/>"
+            "<path fill=\"none\" stroke=\"#111\" stroke-width=\"1.5\" d=\"{0}\"/>\n",
+            path);
     }
     for (std::size_t k = 0; k < drawn.marks.size(); ++k)
         svg += fmt::format(
@@ -176,8 +177,8 @@ void draw_scale(std::string& svg, const View& view, const Page& page) {
 
 }   // namespace
 
-std::string draw_surface(const Surface& surface, const std::vector<SurfaceOpening>& openings,
-                         const std::string& title, const DrawnLines& drawn) {
+std::string draw_surface(const Surface& surface, const std::vector<SurfaceOpening>& openings, const std::string& title,
+                         const DrawnLines& drawn) {
     const Bounds box = bounds(surface);
     const View& view = best_view(box);
     const Page page(view, box);

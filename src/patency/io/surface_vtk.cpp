@@ -96,8 +96,9 @@ std::vector<std::vector<std::uint32_t>> cells_of(const SurfaceBytes& file, vtkCe
         auto& cell = result.emplace_back();
         for (std::int64_t c = offsets[k]; c < offsets[k + 1]; ++c) {
             const std::int64_t point = corners[std::size_t(c)];
-            cell.push_back(point >= 0 && point < std::int64_t(UINT32_MAX) ? std::uint32_t(point)
-                                                                         : UINT32_MAX);   // the check of indices refuses it
+            cell.push_back(point >= 0 && point < std::int64_t(UINT32_MAX)
+                               ? std::uint32_t(point)
+                               : UINT32_MAX);   // the check of indices refuses it
         }
     }
     return result;
@@ -149,14 +150,16 @@ CentrelineData centrelines_of(const SurfaceBytes& file, vtkPolyData& data) {
     for (const char* name : {"MaximumInscribedSphereRadius", "Radius", "radius", "Radii", "radii"})
         if (!radii) radii = data.GetPointData()->GetArray(name);
     if (!radii || radii->GetNumberOfTuples() < vtkIdType(lines.points.size()))
-        refuse_file(file,
-                    "its points have no radii: a point array MaximumInscribedSphereRadius, Radius or radii is needed. Compute "
-                    "the centrelines with radii.");
+        refuse_file(
+            file,
+            "its points have no radii: a point array MaximumInscribedSphereRadius, Radius or radii is needed. Compute "
+            "the centrelines with radii.");
     for (std::size_t k = 0; k < lines.points.size(); ++k) lines.radii.push_back(radii->GetComponent(vtkIdType(k), 0));
     for (const auto& line : cells_of(file, *data.GetLines()))
         for (std::size_t k = 0; k < line.size(); ++k) {
             if (line[k] >= lines.points.size())
-                refuse_file(file, fmt::format("a line names a point beyond the last of {}. Export it again.", lines.points.size()));
+                refuse_file(file, fmt::format("a line names a point beyond the last of {}. Export it again.",
+                                              lines.points.size()));
             if (k > 0) lines.edges.push_back({line[k - 1], line[k]});
         }
     return lines;
@@ -173,7 +176,8 @@ PolyData polydata_of(const SurfaceBytes& file, vtkPolyData& data) {
         for (std::size_t c = 2; c < cell.size(); ++c) result.triangles.push_back({cell[0], cell[c - 1], cell[c]});
     const auto expect_point = [&](std::uint32_t point) {
         if (point >= result.points.size())
-            refuse_file(file, fmt::format("a cell names a point beyond the last of {}. Export it again.", result.points.size()));
+            refuse_file(file, fmt::format("a cell names a point beyond the last of {}. Export it again.",
+                                          result.points.size()));
     };
     for (const auto& line : result.lines)
         for (std::uint32_t point : line) expect_point(point);
@@ -182,8 +186,10 @@ PolyData polydata_of(const SurfaceBytes& file, vtkPolyData& data) {
     for (int k = 0; k < data.GetPointData()->GetNumberOfArrays(); ++k) {
         vtkDataArray* array = data.GetPointData()->GetArray(k);
         if (!array || !array->GetName() || array->GetNumberOfTuples() != data.GetNumberOfPoints()) continue;
-        PointArray& copy = result.arrays.emplace_back(PointArray{array->GetName(), text_of(data, std::string(array->GetName()) + "_unit"),
-                                                                 array->GetNumberOfComponents(), {}});
+        PointArray& copy = result.arrays.emplace_back(PointArray{array->GetName(),
+                                                                 text_of(data, std::string(array->GetName()) + "_unit"),
+                                                                 array->GetNumberOfComponents(),
+                                                                 {}});
         copy.values.reserve(std::size_t(array->GetNumberOfValues()));
         for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
             for (int c = 0; c < copy.components; ++c) copy.values.push_back(array->GetComponent(i, c));
@@ -198,13 +204,14 @@ enum class Trial { passed, crashed, too_large };
 /// times over: damaged counts ask for more.
 template <class Attempt>
 Trial try_in_child(std::size_t size, Attempt attempt) {
-    const rlim_t seconds = 5 + size / 5'000'000;                     // VTK reads 100 MB/s
-    const rlim_t memory = (rlim_t(2) << 30) + 100 * rlim_t(size);    // of addresses: libraries and threads included
+    const rlim_t seconds = 5 + size / 5'000'000;                    // VTK reads 100 MB/s
+    const rlim_t memory = (rlim_t(2) << 30) + 100 * rlim_t(size);   // of addresses: libraries and threads included
     constexpr int out_of_memory = 3;
     const pid_t child = ::fork();
     if (child < 0) return Trial::passed;   // no process to be had: then without the trial
     if (child == 0) {
-        for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) std::signal(crash, SIG_DFL);   // no report of it: the sentence is the parent's
+        for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE})
+            std::signal(crash, SIG_DFL);   // no report of it: the sentence is the parent's
         const rlimit time_limit{seconds, seconds};
         [[maybe_unused]] const rlimit memory_limit{memory, memory};
         ::setrlimit(RLIMIT_CPU, &time_limit);
@@ -223,7 +230,8 @@ Trial try_in_child(std::size_t size, Attempt attempt) {
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
     if (!WIFEXITED(status)) return Trial::crashed;
     if (WEXITSTATUS(status) == out_of_memory) return Trial::too_large;
-    return WEXITSTATUS(status) == 0 ? Trial::passed : Trial::crashed;   // a library, or a sanitizer, may end the process by itself
+    return WEXITSTATUS(status) == 0 ? Trial::passed
+                                    : Trial::crashed;   // a library, or a sanitizer, may end the process by itself
 }
 
 /// `read` makes VTK read and returns its output; `convert` takes what is needed of it.
@@ -233,7 +241,8 @@ auto read_with_vtk(const SurfaceBytes& file, Read read, Convert convert) {
     const char* too_large = "its counts need more memory than there is: it is damaged. Copy or export it again.";
     const Trial trial = try_in_child(file.bytes.size(), read);
     if (trial == Trial::crashed)
-        refuse_file(file, "it is damaged: VTK's reader crashes on it or does not come to an end. Copy or export it again.");
+        refuse_file(file,
+                    "it is damaged: VTK's reader crashes on it or does not come to an end. Copy or export it again.");
     if (trial == Trial::too_large) refuse_file(file, too_large);
     try {
         const vtkSmartPointer<vtkPolyData> data = read();
@@ -320,13 +329,16 @@ auto read_vtp(const SurfaceBytes& file, Convert convert) {
                     "it is a VTK file of another type than PolyData. Extract the surface (in ParaView: Extract "
                     "Surface) and save it as VTP.");
     expect_possible_counts(file);
-    return read_with_vtk(file, [&] {
-        vtkNew<vtkXMLPolyDataReader> reader;
-        reader->ReadFromInputStringOn();
-        reader->SetInputString(std::string(file.bytes));
-        reader->Update();
-        return vtkSmartPointer<vtkPolyData>(reader->GetErrorCode() == 0 ? reader->GetOutput() : nullptr);
-    }, convert);
+    return read_with_vtk(
+        file,
+        [&] {
+            vtkNew<vtkXMLPolyDataReader> reader;
+            reader->ReadFromInputStringOn();
+            reader->SetInputString(std::string(file.bytes));
+            reader->Update();
+            return vtkSmartPointer<vtkPolyData>(reader->GetErrorCode() == 0 ? reader->GetOutput() : nullptr);
+        },
+        convert);
 }
 
 template <class Convert>
@@ -338,14 +350,17 @@ auto read_legacy_vtk(const SurfaceBytes& file, Convert convert) {
     if (file.bytes.size() > std::size_t(std::numeric_limits<int>::max()))   // VTK counts its bytes in int
         refuse_file(file, "it has more than 2 GB. Save it as VTP.");
     expect_sound_tables(file);
-    return read_with_vtk(file, [&] {
-        vtkNew<vtkPolyDataReader> reader;
-        reader->ReadFromInputStringOn();
-        reader->SetBinaryInputString(file.bytes.data(), int(file.bytes.size()));
-        reader->ReadAllFieldsOn();
-        reader->Update();
-        return vtkSmartPointer<vtkPolyData>(reader->GetErrorCode() == 0 ? reader->GetOutput() : nullptr);
-    }, convert);
+    return read_with_vtk(
+        file,
+        [&] {
+            vtkNew<vtkPolyDataReader> reader;
+            reader->ReadFromInputStringOn();
+            reader->SetBinaryInputString(file.bytes.data(), int(file.bytes.size()));
+            reader->ReadAllFieldsOn();
+            reader->Update();
+            return vtkSmartPointer<vtkPolyData>(reader->GetErrorCode() == 0 ? reader->GetOutput() : nullptr);
+        },
+        convert);
 }
 
 }   // namespace

@@ -231,8 +231,7 @@ void write_polydata(const std::filesystem::path& path, const PolyData& source, c
     }
     for (const IntegerArray& array : source.integers) {
         assert(array.values.size() == source.points.size() && "one value per point");
-        data->GetPointData()->AddArray(
-            make_integers(vtk_name(array.name), std::as_bytes(std::span(array.values)), {}));
+        data->GetPointData()->AddArray(make_integers(vtk_name(array.name), std::as_bytes(std::span(array.values)), {}));
     }
     write(*data, target);
 }

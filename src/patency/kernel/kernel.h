@@ -29,4 +29,4 @@ struct WendlandC2 {
     }
 };
 
-}  // namespace patency
+}   // namespace patency

@@ -49,7 +49,8 @@ struct PairUnits {
     double distance = 1;   ///< a quantum
     double weight = 1;     ///< the largest
 
-    static constexpr double most = 32767, parts = 65535, lowest = -32768;   // of a distance; of a root, kept from the lowest number up
+    static constexpr double most = 32767, parts = 65535,
+                            lowest = -32768;   // of a distance; of a root, kept from the lowest number up
 
     double root() const { return std::sqrt(weight) / parts; }
 };
@@ -66,7 +67,8 @@ inline FixedRows rows_by_particle(const Neighbours& found, std::size_t count) {
         for (std::size_t m = 0; m < block.member_count; ++m) {
             const std::size_t g = m / lanes;
             for (std::size_t k = block.group_start[g] + m % lanes; k < block.group_start[g + 1]; k += lanes)
-                if (block.entries[k] != block.members[m]) rows[block.members[m]].push_back(block.entries[k]);   // itself: padding
+                if (block.entries[k] != block.members[m])
+                    rows[block.members[m]].push_back(block.entries[k]);   // itself: padding
         }
     }
     return rows;
@@ -81,8 +83,11 @@ std::vector<std::uint32_t> find_order(const FixedRows& rows, KindOf kind_of) {
     std::vector<std::uint32_t> order(rows.size());
     std::iota(order.begin(), order.end(), 0u);
     for (std::size_t first = 0; first < order.size(); first += particles_per_run)
-        std::stable_sort(order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(std::min(order.size(), first + particles_per_run)),
-                         [&](std::uint32_t a, std::uint32_t b) { return std::pair(kind_of(a), rows[a].size()) < std::pair(kind_of(b), rows[b].size()); });
+        std::stable_sort(order.begin() + std::ptrdiff_t(first),
+                         order.begin() + std::ptrdiff_t(std::min(order.size(), first + particles_per_run)),
+                         [&](std::uint32_t a, std::uint32_t b) {
+                             return std::pair(kind_of(a), rows[a].size()) < std::pair(kind_of(b), rows[b].size());
+                         });
     return order;
 }
 
@@ -109,7 +114,9 @@ FixedRows joined(const FixedRows& rows, const Position& x, double near) {
         for (const std::uint32_t k : rows[i])
             if (are_near(i, k)) between.push_back(k);
         for (const std::uint32_t j : rows[i])
-            if (are_near(i, j) || std::any_of(between.begin(), between.end(), [&](std::uint32_t k) { return are_near(j, k); })) result[i].push_back(j);
+            if (are_near(i, j) ||
+                std::any_of(between.begin(), between.end(), [&](std::uint32_t k) { return are_near(j, k); }))
+                result[i].push_back(j);
     }
     return result;
 }
@@ -134,7 +141,9 @@ public:
                 group[l].clear();
                 if (first + l >= count_) continue;
                 for (const std::uint32_t j : rows[first + l])
-                    if (const std::array<Stored, 4> pair = stored(pair_of(std::uint32_t(first + l), j), units); pair[3] != no_weight) group[l].push_back({j, pair});
+                    if (const std::array<Stored, 4> pair = stored(pair_of(std::uint32_t(first + l), j), units);
+                        pair[3] != no_weight)
+                        group[l].push_back({j, pair});
                 pairs_ += group[l].size();
                 longest = std::max(longest, group[l].size());
             }
@@ -145,7 +154,9 @@ public:
                     const bool is_padding = k >= group[l].size();   // the particle itself, whose differences vanish
                     index_[filled + k * lanes + l] = is_padding ? std::uint32_t(first + l) : group[l][k].first;
                     for (std::size_t n = 0; n < 4; ++n)
-                        numbers_[4 * (filled + k * lanes) + n * lanes + l] = !is_padding ? group[l][k].second[n] : n < 3 ? Stored(0) : no_weight;
+                        numbers_[4 * (filled + k * lanes) + n * lanes + l] = !is_padding ? group[l][k].second[n]
+                                                                             : n < 3     ? Stored(0)
+                                                                                         : no_weight;
                 }
             start_.push_back(filled + longest * lanes);
         }
@@ -163,24 +174,28 @@ public:
         for (std::size_t g = 0; g < start_.size() - 1; ++g)
             for (std::size_t l = 0; l < lanes; ++l)
                 for (std::size_t k = start_[g] + l; k < start_[g + 1]; k += lanes) {
-                    if (const FixedPair<T> pair = pair_at<T>(&numbers_[4 * (k - l) + l]); pair.w != T(0)) visit(std::uint32_t(g * lanes + l), index_[k], pair);
+                    if (const FixedPair<T> pair = pair_at<T>(&numbers_[4 * (k - l) + l]); pair.w != T(0))
+                        visit(std::uint32_t(g * lanes + l), index_[k], pair);
                 }
     }
 
     /// finish(i, sums of term over the row of i), with packs for the particles i, i + 1 ... or, in the reference loop, with
     /// numbers for i. Records are padded.
     template <class Term, class Finish>
-    void sum(const std::array<const Quad<T>*, Term::own_quads>& own, const std::array<const Quad<T>*, Term::quads>& other, const Term& term,
-             const Finish& finish, LoopKind kind) const {
-        if (kind == LoopKind::packed) sum_as<Pack<T>>(own, other, term, finish);
-        else sum_as<T>(own, other, term, finish);
+    void sum(const std::array<const Quad<T>*, Term::own_quads>& own,
+             const std::array<const Quad<T>*, Term::quads>& other, const Term& term, const Finish& finish,
+             LoopKind kind) const {
+        if (kind == LoopKind::packed)
+            sum_as<Pack<T>>(own, other, term, finish);
+        else
+            sum_as<T>(own, other, term, finish);
     }
 
 private:
     /// P: a pack for a group at once, or a number for one particle after the other.
     template <class P, class Term, class Finish>
-    void sum_as(const std::array<const Quad<T>*, Term::own_quads>& own, const std::array<const Quad<T>*, Term::quads>& other, const Term& term,
-                const Finish& finish) const {
+    void sum_as(const std::array<const Quad<T>*, Term::own_quads>& own,
+                const std::array<const Quad<T>*, Term::quads>& other, const Term& term, const Finish& finish) const {
         constexpr bool is_packed = !std::is_same_v<P, T>;
         constexpr std::size_t at_once = is_packed ? lanes : 1, groups_per_task = particles_per_run / lanes;
         const std::size_t groups = start_.size() - 1, tasks = (groups + groups_per_task - 1) / groups_per_task;
@@ -221,9 +236,12 @@ private:
     PATENCY_INLINE FixedPair<P> pair_at(const Stored* from) const {
         std::array<P, 4> n;
         for (std::size_t k = 0; k < 4; ++k) {
-            if constexpr (sizeof(T) == 4) load_whole(from + k * lanes, n[k]);
-            else if constexpr (std::is_same_v<P, T>) n[k] = from[k * lanes];
-            else n[k] = P::load(from + k * lanes);
+            if constexpr (sizeof(T) == 4)
+                load_whole(from + k * lanes, n[k]);
+            else if constexpr (std::is_same_v<P, T>)
+                n[k] = from[k * lanes];
+            else
+                n[k] = P::load(from + k * lanes);
         }
         if constexpr (sizeof(T) == 4) {
             const P root = fma(n[3], P(root_unit_), P(no_root_)), w = root * root, scale = w * P(distance_unit_);
@@ -233,7 +251,8 @@ private:
         }
     }
     template <class P, std::size_t n>
-    PATENCY_INLINE static std::array<Quads<P>, n> load(const std::array<const Quad<T>*, n>& records, const std::uint32_t* index) {
+    PATENCY_INLINE static std::array<Quads<P>, n> load(const std::array<const Quad<T>*, n>& records,
+                                                       const std::uint32_t* index) {
         std::array<Quads<P>, n> quads;
         for (std::size_t k = 0; k < n; ++k) {
             if constexpr (std::is_same_v<P, T>) {
@@ -248,15 +267,18 @@ private:
 
     std::size_t count_ = 0;
     std::uint64_t pairs_ = 0;
-    std::vector<std::size_t> start_{0};     // of every group, in entries, and the end
-    AlignedVector<std::uint32_t> index_;    // of neighbours, side by side
-    AlignedVector<Stored> numbers_;         // of pairs: by pack of entries wd.x, wd.y, wd.z, w; of floats d.x, d.y, d.z, root of w in units
+    std::vector<std::size_t> start_{0};    // of every group, in entries, and the end
+    AlignedVector<std::uint32_t> index_;   // of neighbours, side by side
+    AlignedVector<Stored>
+        numbers_;   // of pairs: by pack of entries wd.x, wd.y, wd.z, w; of floats d.x, d.y, d.z, root of w in units
     T distance_unit_ = 1, root_unit_ = 1, no_root_ = 0;
 };
 
 /// A pack or a number to column[i], column[i + 1] ...
 template <class T, int W>
-PATENCY_INLINE void store(const Pack<T, W>& value, T* column) { value.store(column); }
+PATENCY_INLINE void store(const Pack<T, W>& value, T* column) {
+    value.store(column);
+}
 PATENCY_INLINE void store(float value, float* column) { *column = value; }
 PATENCY_INLINE void store(double value, double* column) { *column = value; }
 

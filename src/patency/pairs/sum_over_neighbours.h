@@ -97,7 +97,8 @@ void sum_packed(const Neighbours& rows, T inverse_support, const Records<T, Term
                 std::array<P, sums> sum;
                 for (auto& s : sum) s = P(T(0));
                 const std::uint32_t* end = block.entries.data() + block.group_start[g + 1];
-                for (const std::uint32_t* entry = block.entries.data() + block.group_start[g]; entry < end; entry += W) {
+                for (const std::uint32_t* entry = block.entries.data() + block.group_start[g]; entry < end;
+                     entry += W) {
                     __builtin_prefetch(entry + entries_ahead);
                     const auto j = load_sample<T, W, Term::extras>(other, entry, xj);
                     term(make_pair<P, T>(xi, xj, inverse_support), i, j, sum);
@@ -115,7 +116,7 @@ void sum_packed(const Neighbours& rows, T inverse_support, const Records<T, Term
     }
 }
 
-}  // namespace detail
+}   // namespace detail
 
 /// finish(i, sums of term over the row of i), for every particle that has a row. Finish may write what belongs to i.
 template <class T, class Term, class Finish>
@@ -132,7 +133,8 @@ void sum_one_by_one(const Neighbours& rows, const PairScale& scale, const Record
     using P = T;
     const std::size_t lanes = std::size_t(rows.lanes());
     const auto quads_of = [](const Quad<T>& q) { return Quads<P>{q.a, q.b, q.c, q.d}; };
-    const auto sample_of = [&]<std::size_t n>(const std::array<const Quad<T>*, n>& records, std::uint32_t index, Quads<P>& geometry) {
+    const auto sample_of = [&]<std::size_t n>(const std::array<const Quad<T>*, n>& records, std::uint32_t index,
+                                              Quads<P>& geometry) {
         geometry = quads_of(records[0][index]);
         Sample<P, int(n) - 1> sample;
         sample.value = geometry.d;
@@ -165,4 +167,4 @@ void sum_over_neighbours(const Neighbours& rows, const PairScale& scale, const R
         detail::sum_packed<T, native_lanes<T>>(rows, T(scale.unit / scale.support), own, other, term, finish);
 }
 
-}  // namespace patency
+}   // namespace patency

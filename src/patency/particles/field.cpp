@@ -25,4 +25,4 @@ template class Field<Vec3>;
 template class Field<Mat3>;
 template class Field<std::int32_t>;
 
-}  // namespace patency
+}   // namespace patency

@@ -19,8 +19,8 @@ namespace patency {
 
 /// How long a field's values mean something.
 enum class Keep {
-    state,    ///< part of the state: sorted with the particles, written to checkpoints
-    scratch,  ///< recomputed in every step: resized, but neither sorted nor kept
+    state,     ///< part of the state: sorted with the particles, written to checkpoints
+    scratch,   ///< recomputed in every step: resized, but neither sorted nor kept
 };
 
 class ParticleSet;
@@ -37,8 +37,8 @@ public:
     const std::string& unit() const { return unit_; }   ///< SI, as text; "1" for numbers
     Keep keep() const { return keep_; }
 
-    virtual int components() const = 0;        ///< 1, 3 (vector) or 9 (matrix, by rows)
-    virtual bool is_integer() const = 0;       ///< 32-bit integers, else 64-bit floating point
+    virtual int components() const = 0;    ///< 1, 3 (vector) or 9 (matrix, by rows)
+    virtual bool is_integer() const = 0;   ///< 32-bit integers, else 64-bit floating point
     virtual std::span<const std::byte> bytes() const = 0;
     virtual std::span<std::byte> bytes() = 0;
     virtual void resize(std::size_t count) = 0;
@@ -70,7 +70,9 @@ public:
     auto end() const { return values_.end(); }
 
     int components() const override {
-        return is_integer() ? 1 : int(sizeof(T) / sizeof(double));   // NOLINT(bugprone-sizeof-expression): T is numbers side by side
+        return is_integer()
+                   ? 1
+                   : int(sizeof(T) / sizeof(double));   // NOLINT(bugprone-sizeof-expression): T is numbers side by side
     }
     bool is_integer() const override { return std::is_same_v<T, std::int32_t>; }
     std::span<const std::byte> bytes() const override { return std::as_bytes(std::span(values_)); }
@@ -83,4 +85,4 @@ private:
     std::vector<T> spare_;   // the other half of take(), kept to save allocations
 };
 
-}  // namespace patency
+}   // namespace patency

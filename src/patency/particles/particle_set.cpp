@@ -31,4 +31,4 @@ void ParticleSet::add(FieldBase& field) {
     fields_.push_back(&field);
 }
 
-}  // namespace patency
+}   // namespace patency

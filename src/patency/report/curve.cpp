@@ -34,19 +34,27 @@ struct Axis {
 
 std::string marks(const Axis& x, const Axis& y) {
     std::string svg;
-    const auto label = [](double v, double step) { return fmt::format("{:.{}f}", v, std::max(0, int(-std::floor(std::log10(step) + 1e-9)))); };
+    const auto label = [](double v, double step) {
+        return fmt::format("{:.{}f}", v, std::max(0, int(-std::floor(std::log10(step) + 1e-9))));
+    };
     for (double v = std::ceil(x.low / x.step()) * x.step(); v <= x.high + 1e-9; v += x.step())
-        svg += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1} V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>\n", x.at(v), top,
-                           height - bottom, height - bottom + 16, label(v, x.step()));
+        svg += fmt::format(
+            "<path class=\"grid\" d=\"M{0:.1f} {1} V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" "
+            "text-anchor=\"middle\">{4}</text>\n",
+            x.at(v), top, height - bottom, height - bottom + 16, label(v, x.step()));
     for (double v = std::ceil(y.low / y.step()) * y.step(); v <= y.high + 1e-12; v += y.step())
-        svg += fmt::format("<path class=\"grid\" d=\"M{1} {0:.1f} H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n", y.at(v), left,
-                           width - right, left - 7, y.at(v) + 4, label(std::abs(v) < 1e-9 * y.step() ? 0 : v, y.step()));
+        svg += fmt::format(
+            "<path class=\"grid\" d=\"M{1} {0:.1f} H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" "
+            "text-anchor=\"end\">{5}</text>\n",
+            y.at(v), left, width - right, left - 7, y.at(v) + 4,
+            label(std::abs(v) < 1e-9 * y.step() ? 0 : v, y.step()));
     return svg;
 }
 
 std::string line(const PullbackCurve& curve, const Axis& x, const Axis& y) {
     std::string path;
-    for (std::size_t k = 0; k < curve.x.size(); ++k) path += fmt::format("{}{:.1f} {:.1f}", k ? " L" : "M", x.at(curve.x[k]), y.at(curve.y[k]));
+    for (std::size_t k = 0; k < curve.x.size(); ++k)
+        path += fmt::format("{}{:.1f} {:.1f}", k ? " L" : "M", x.at(curve.x[k]), y.at(curve.y[k]));
     return fmt::format("<path class=\"curve {}\" d=\"{}\"/>\n", curve.style, path);
 }
 
@@ -60,22 +68,29 @@ std::string draw_pullback(const PullbackPlot& plot) {
     if (plot.least) y.include(*plot.least);
     y.widen(0.06);
     if (plot.has_points) x.widen(0.03);   // none on the edge
-    std::string svg = fmt::format("<svg class=\"pullback\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height, escaped(plot.title.empty() ? plot.y_label + " along the vessel" : plot.title));
+    std::string svg =
+        fmt::format("<svg class=\"pullback\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height,
+                    escaped(plot.title.empty() ? plot.y_label + " along the vessel" : plot.title));
     for (const Span& span : plot.spans)
         if (span.to > x.low && span.from < x.high) {
             const double from = x.at(std::max(span.from, x.low)), to = x.at(std::min(span.to, x.high));
-            svg += fmt::format("<rect class=\"span {}\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>\n", span.style, from, top, to - from, height - top - bottom);
+            svg += fmt::format("<rect class=\"span {}\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>\n",
+                               span.style, from, top, to - from, height - top - bottom);
         }
     svg += marks(x, y);
     for (const double level : plot.levels)
-        if (y.has(level)) svg += fmt::format("<path class=\"level\" d=\"M{} {:.1f} H{}\"/>\n", left, y.at(level), width - right);
+        if (y.has(level))
+            svg += fmt::format("<path class=\"level\" d=\"M{} {:.1f} H{}\"/>\n", left, y.at(level), width - right);
     for (const PullbackCurve& curve : plot.curves) {
         if (curve.x.size() > 1) svg += line(curve, x, y);
         for (std::size_t k = 0; plot.has_points && k < curve.x.size(); ++k)
-            svg += fmt::format("<circle class=\"point {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", curve.style, x.at(curve.x[k]), y.at(curve.y[k]));
+            svg += fmt::format("<circle class=\"point {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", curve.style,
+                               x.at(curve.x[k]), y.at(curve.y[k]));
     }
-    svg += fmt::format("<text x=\"{:.0f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + width - right), height - 6, escaped(plot.x_label));
-    svg += fmt::format("<text transform=\"translate(15 {:.0f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", 0.5 * (top + height - bottom), escaped(plot.y_label));
+    svg += fmt::format("<text x=\"{:.0f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", 0.5 * (left + width - right),
+                       height - 6, escaped(plot.x_label));
+    svg += fmt::format("<text transform=\"translate(15 {:.0f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                       0.5 * (top + height - bottom), escaped(plot.y_label));
     return svg + "</svg>\n";
 }
 

@@ -24,9 +24,9 @@ struct PullbackPlot {
     std::vector<PullbackCurve> curves;
     std::vector<Span> spans;
     std::optional<double> least{};   ///< the axis reaches down to it, or farther
-    std::vector<double> levels;   ///< horizontal lines, drawn where the axis has them
-    std::string title{};          ///< for those who hear the page; empty: the y axis along the vessel
-    bool has_points = false;      ///< a dot at every value; a curve of one then counts
+    std::vector<double> levels;      ///< horizontal lines, drawn where the axis has them
+    std::string title{};             ///< for those who hear the page; empty: the y axis along the vessel
+    bool has_points = false;         ///< a dot at every value; a curve of one then counts
 };
 
 /// Empty where no two values of x differ.

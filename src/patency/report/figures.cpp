@@ -21,9 +21,23 @@ struct Ending {
 };
 // The longest first, where one ends another.
 constexpr Ending endings[] = {
-    {"_pa_s_per_m3", {"Pa s/m³", 1, 0}}, {"_pa_s", {"mPa s", 1e3, 2}}, {"_kg_per_m3", {"kg/m³", 1, 0}}, {"_m3_per_s", as_mL_per_min}, {"_m_per_s", as_m_per_s}, {"_mm2", {"mm²", 1, 2}},
-    {"_mm", as_mm},   {"_um", {"µm", 1, 1}}, {"_percent", as_percent}, {"_mpa", {"MPa", 1, 2}}, {"_pa", {"kPa", 1e-3, 2}},
-    {"_atm", {"atm", 1, 1}}, {"_mmhg", {"mmHg", 1, 2}}, {"_m", {"mm", 1e3, 3}}, {"_s", {"s", 1, 4}}, {"_j", {"mJ", 1e3, 3}}, {"_n", {"N", 1, 3}},
+    {"_pa_s_per_m3", {"Pa s/m³", 1, 0}},
+    {"_pa_s", {"mPa s", 1e3, 2}},
+    {"_kg_per_m3", {"kg/m³", 1, 0}},
+    {"_m3_per_s", as_mL_per_min},
+    {"_m_per_s", as_m_per_s},
+    {"_mm2", {"mm²", 1, 2}},
+    {"_mm", as_mm},
+    {"_um", {"µm", 1, 1}},
+    {"_percent", as_percent},
+    {"_mpa", {"MPa", 1, 2}},
+    {"_pa", {"kPa", 1e-3, 2}},
+    {"_atm", {"atm", 1, 1}},
+    {"_mmhg", {"mmHg", 1, 2}},
+    {"_m", {"mm", 1e3, 3}},
+    {"_s", {"s", 1, 4}},
+    {"_j", {"mJ", 1e3, 3}},
+    {"_n", {"N", 1, 3}},
 };
 
 /// Without the sign of a zero.
@@ -87,13 +101,15 @@ double Figures::value(const std::string& pointer) const {
 
 std::string Figures::text(const std::string& pointer) const {
     const Pointer place(pointer);
-    return summary_.contains(place) && summary_.at(place).is_string() ? escaped(summary_.at(place).get<std::string>()) : std::string();
+    return summary_.contains(place) && summary_.at(place).is_string() ? escaped(summary_.at(place).get<std::string>())
+                                                                      : std::string();
 }
 
 std::string Figures::number(const std::string& pointer, const Measure& m) const {
     if (!has(pointer)) return std::string(dash);
-    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{}</data>", value(pointer),
-                       escaped(pointer), m.scale, m.digits, rounded(value(pointer) * m.scale, m.digits));
+    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{}</data>",
+                       value(pointer), escaped(pointer), m.scale, m.digits,
+                       rounded(value(pointer) * m.scale, m.digits));
 }
 
 std::string Figures::with_unit(const std::string& pointer, const Measure& m) const {
@@ -104,14 +120,15 @@ std::string Figures::with_unit(const std::string& pointer, const Measure& m) con
 std::string Figures::ratio(const std::string& pointer, const std::string& over, const Measure& m) const {
     if (!has(pointer) || !has(over) || value(over) == 0) return std::string(dash);
     const double ratio = value(pointer) / value(over);
-    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-over=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{}</data>", ratio,
-                       escaped(pointer), escaped(over), m.scale, m.digits, rounded(ratio * m.scale, m.digits));
+    return fmt::format(
+        "<data value=\"{}\" data-path=\"{}\" data-over=\"{}\" data-scale=\"{}\" data-digits=\"{}\">{}</data>", ratio,
+        escaped(pointer), escaped(over), m.scale, m.digits, rounded(ratio * m.scale, m.digits));
 }
 
 std::string Figures::scientific(const std::string& pointer, int digits, double sign) const {
     if (!has(pointer)) return std::string(dash);
-    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-scale=\"{}\" data-digits=\"e{}\">{:.{}e}</data>", value(pointer),
-                       escaped(pointer), sign, digits, sign * value(pointer), digits);
+    return fmt::format("<data value=\"{}\" data-path=\"{}\" data-scale=\"{}\" data-digits=\"e{}\">{:.{}e}</data>",
+                       value(pointer), escaped(pointer), sign, digits, sign * value(pointer), digits);
 }
 
 }   // namespace patency

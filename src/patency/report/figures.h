@@ -50,8 +50,8 @@ public:
     /// "1.2e-06", for tables in SI.
     std::string scientific(const std::string& pointer, int digits = 2, double sign = 1) const;
 
-    bool has(const std::string& pointer) const;              ///< a number is there
-    double value(const std::string& pointer) const;          ///< NaN without one
+    bool has(const std::string& pointer) const;       ///< a number is there
+    double value(const std::string& pointer) const;   ///< NaN without one
     /// The text at a pointer, escaped; empty without one.
     std::string text(const std::string& pointer) const;
 

@@ -26,9 +26,13 @@ constexpr std::size_t most_wall_triangles = 40'000, most_cut_triangles = 20'000,
                       most_body_triangles = 12'000, most_body_points = 8'000;
 constexpr double finest_value = no_value - 1;
 
-const std::vector<FieldChoice> wall_fields = {{"FFR", "FFR"}, {"Pressure", "Pressure"}, {"WSS", "WSS"}, {"TAWSS", "TAWSS"}, {"OSI", "OSI"}};
+const std::vector<FieldChoice> wall_fields = {
+    {"FFR", "FFR"}, {"Pressure", "Pressure"}, {"WSS", "WSS"}, {"TAWSS", "TAWSS"}, {"OSI", "OSI"}};
 const std::vector<FieldChoice> flow_fields = {{"Velocity", "Velocity"}, {"Pressure", "Pressure"}};
-const std::vector<FieldChoice> body_fields = {{"VonMises_stress", "VonMises"}, {"PlasticStrain", "PlasticStrain"}, {"Gap", "Gap"}, {"Displacement", "Displacement"}};
+const std::vector<FieldChoice> body_fields = {{"VonMises_stress", "VonMises"},
+                                              {"PlasticStrain", "PlasticStrain"},
+                                              {"Gap", "Gap"},
+                                              {"Displacement", "Displacement"}};
 
 const PointArray* find(const PolyData& data, std::string_view name) {
     for (const PointArray& array : data.arrays)
@@ -60,7 +64,8 @@ void append_positions(Piece& piece, const PolyData& data, const std::vector<std:
     piece.step = 1e3 / scale;
 }
 
-void append_field(Piece& piece, const PolyData& data, const std::vector<std::uint32_t>& points, const FieldChoice& choice) {
+void append_field(Piece& piece, const PolyData& data, const std::vector<std::uint32_t>& points,
+                  const FieldChoice& choice) {
     const PointArray* array = find(data, choice.array);
     if (!array) return;
     const PointArray* resolved = find(data, "IsResolved");
@@ -73,13 +78,15 @@ void append_field(Piece& piece, const PolyData& data, const std::vector<std::uin
     }
     if (!(low <= high)) low = high = 0;
     const double scale = high > low ? finest_value / (high - low) : 0;
-    for (double v : values) piece.words.push_back(std::isnan(v) ? no_value : std::uint16_t(std::lround((v - low) * scale)));
+    for (double v : values)
+        piece.words.push_back(std::isnan(v) ? no_value : std::uint16_t(std::lround((v - low) * scale)));
     piece.fields.push_back({choice.name, array->unit, low, high});
 }
 
 std::string bytes_of(const std::vector<std::uint16_t>& words) {
     std::string bytes;
-    for (const std::uint16_t w : words) bytes += char(w & 255), bytes += char(w >> 8);   // the low byte first, on every machine
+    for (const std::uint16_t w : words)
+        bytes += char(w & 255), bytes += char(w >> 8);   // the low byte first, on every machine
     return bytes;
 }
 
@@ -91,7 +98,8 @@ Json add(PageData& page, const Piece& piece) {
                {"origin_mm", {piece.origin.x, piece.origin.y, piece.origin.z}},
                {"step_mm", piece.step},
                {"fields", Json::array()}};
-    for (const PieceField& f : piece.fields) about["fields"].push_back({{"name", f.name}, {"unit", f.unit}, {"low", f.low}, {"high", f.high}});
+    for (const PieceField& f : piece.fields)
+        about["fields"].push_back({{"name", f.name}, {"unit", f.unit}, {"low", f.low}, {"high", f.high}});
     page.blobs.push_back({about["data"], base64(deflated(bytes_of(piece.words)))});
     return about;
 }
@@ -99,8 +107,12 @@ Json add(PageData& page, const Piece& piece) {
 /// The arcs that matter along the line that passes a lesion [mm].
 Json lesion_model(const Json& lesion) {
     const double throat = lesion.value("throat_arc_mm", 0.0), half = 0.5 * lesion.value("length_mm", 0.0);
-    return {{"branch", lesion.value("branch", "")}, {"throat_mm", throat}, {"start_mm", throat - half}, {"end_mm", throat + half},
-            {"read_mm", lesion.value("read_arc_mm", throat + half)}, {"flow_m3_per_s", lesion.value("flow_m3_per_s", 0.0)}};
+    return {{"branch", lesion.value("branch", "")},
+            {"throat_mm", throat},
+            {"start_mm", throat - half},
+            {"end_mm", throat + half},
+            {"read_mm", lesion.value("read_arc_mm", throat + half)},
+            {"flow_m3_per_s", lesion.value("flow_m3_per_s", 0.0)}};
 }
 
 /// Where along the vessel the stent lies [mm]; null without one.
@@ -111,16 +123,24 @@ Json stent_model(const Json& summary) {
 
 Json flow_model(PageData& page, const FlowPart& flow, const Json& summary) {
     Json model{{"key", flow.key}, {"title", flow.title}, {"pieces", Json::object()}, {"lesions", Json::array()}};
-    if (flow.wall) model["pieces"]["wall"] = add(page, make_piece(*flow.wall, shown_surface(*flow.wall, most_wall_triangles), wall_fields, Joints::included));
-    if (flow.cut) model["pieces"]["cut"] = add(page, make_piece(*flow.cut, shown_surface(*flow.cut, most_cut_triangles), flow_fields, Joints::included));
+    if (flow.wall)
+        model["pieces"]["wall"] = add(page, make_piece(*flow.wall, shown_surface(*flow.wall, most_wall_triangles),
+                                                       wall_fields, Joints::included));
+    if (flow.cut)
+        model["pieces"]["cut"] = add(
+            page, make_piece(*flow.cut, shown_surface(*flow.cut, most_cut_triangles), flow_fields, Joints::included));
     if (flow.streamlines)
-        model["pieces"]["streamlines"] = add(page, make_piece(*flow.streamlines, shown_lines(*flow.streamlines, most_streamline_points), flow_fields, Joints::included));
+        model["pieces"]["streamlines"] =
+            add(page, make_piece(*flow.streamlines, shown_lines(*flow.streamlines, most_streamline_points), flow_fields,
+                                 Joints::included));
     if (summary.contains("lesions"))
         for (const Json& lesion : summary["lesions"]) model["lesions"].push_back(lesion_model(lesion));
     return model;
 }
 
-bool are_alike(const PolyData& a, const PolyData& b) { return a.points.size() == b.points.size() && a.triangles == b.triangles; }
+bool are_alike(const PolyData& a, const PolyData& b) {
+    return a.points.size() == b.points.size() && a.triangles == b.triangles;
+}
 
 /// Frames of one body share their triangles: those of the first are decimated, and no point moves by that.
 Json body_model(PageData& page, const DeployedBody& body) {
@@ -129,7 +149,9 @@ Json body_model(PageData& page, const DeployedBody& body) {
     for (std::size_t k = 0; k < body.frames.size(); ++k) {
         const PolyData& frame = body.frames[k];
         const bool is_new = k == 0 || !are_alike(frame, body.frames[k - 1]);
-        if (is_new) shown = frame.triangles.empty() ? shown_points(frame, most_body_points) : shown_surface(frame, most_body_triangles);
+        if (is_new)
+            shown = frame.triangles.empty() ? shown_points(frame, most_body_points)
+                                            : shown_surface(frame, most_body_triangles);
         Json about = add(page, make_piece(frame, shown, body_fields, is_new ? Joints::included : Joints::left_out));
         about["time_s"] = body.times[k];
         model["frames"].push_back(std::move(about));
@@ -205,7 +227,9 @@ PageData make_page_data(const RunResults& results) {
     const std::optional<std::size_t> worst = first ? worst_lesion(results.part(*first)) : std::nullopt;
     model["stent"] = stent_model(*results.summary);
     model["worst_lesion"] = worst ? Json(*worst) : Json(nullptr);
-    const PolyData* seen = first && first->wall ? &*first->wall : results.bodies.empty() ? nullptr : &results.bodies.front().frames.front();
+    const PolyData* seen = first && first->wall     ? &*first->wall
+                           : results.bodies.empty() ? nullptr
+                                                    : &results.bodies.front().frames.front();
     model["space"] = seen ? seen->space : "";
     const View view = seen ? broad_view(seen->points) : View{};
     for (const auto& [name, axis] : {std::pair{"right", view.right}, {"up", view.up}, {"toward", view.toward}})

@@ -3,8 +3,8 @@
 // the triangles that a screen can show. web/src/model.ts reads it.
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,8 +31,8 @@ struct PieceField {
 /// triangle, one per line (how many points it has; they follow each other). Points lie at origin + step * word.
 struct Piece {
     std::size_t points = 0, triangles = 0, lines = 0;
-    Vec3 origin{};      ///< [mm]
-    double step = 0;    ///< [mm]
+    Vec3 origin{};     ///< [mm]
+    double step = 0;   ///< [mm]
     std::vector<PieceField> fields{};
     std::vector<std::uint16_t> words{};
 };

@@ -2,9 +2,10 @@
 // The assembler puts the files into the object: no compiler has to read them as text.
 #include "patency/report/page_parts.h"
 
-#define PATENCY_EMBED(name, file)                                                                               \
-    __asm__(".pushsection .rodata\n" #name "_begin: .incbin \"" PATENCY_PAGE "/" file "\"\n" #name "_end:\n.popsection\n"); \
-    extern "C" const char name##_begin[] __attribute__((visibility("hidden")));                                  \
+#define PATENCY_EMBED(name, file)                                                                  \
+    __asm__(".pushsection .rodata\n" #name "_begin: .incbin \"" PATENCY_PAGE "/" file "\"\n" #name \
+            "_end:\n.popsection\n");                                                               \
+    extern "C" const char name##_begin[] __attribute__((visibility("hidden")));                    \
     extern "C" const char name##_end[] __attribute__((visibility("hidden")));
 
 PATENCY_EMBED(patency_page_script, "page.js")

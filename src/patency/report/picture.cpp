@@ -10,14 +10,14 @@ namespace patency {
 
 namespace {
 
-constexpr int finer = 2;             // pixels are drawn so much finer and averaged: smooth edges
-constexpr double margin = 12;        // pixels
+constexpr int finer = 2;        // pixels are drawn so much finer and averaged: smooth edges
+constexpr double margin = 12;   // pixels
 constexpr Vec3 grey{0.62, 0.62, 0.62};
 
 struct Corner {
     double x, y, depth;
-    Vec3 colour;    ///< 0 to 1
-    Vec3 normal;    ///< in the view's axes
+    Vec3 colour;   ///< 0 to 1
+    Vec3 normal;   ///< in the view's axes
 };
 
 /// Where points fall on the page: x right, y down, in fine pixels.
@@ -64,34 +64,43 @@ std::vector<Vec3> point_colours(const SurfaceScene& scene) {
     for (std::size_t k = 0; k < colours.size(); ++k) {
         if (resolved && resolved->values[k] == 0) continue;
         double sum = 0;
-        for (int c = 0; c < field->components; ++c) sum += std::pow(field->values[k * std::size_t(field->components) + std::size_t(c)], 2);
+        for (int c = 0; c < field->components; ++c)
+            sum += std::pow(field->values[k * std::size_t(field->components) + std::size_t(c)], 2);
         const double value = field->components == 1 ? field->values[k] : std::sqrt(sum);
-        colours[k] = as_vec(colour_of((value - scene.range.low) / std::max(scene.range.high - scene.range.low, 1e-300)));
+        colours[k] =
+            as_vec(colour_of((value - scene.range.low) / std::max(scene.range.high - scene.range.low, 1e-300)));
     }
     return colours;
 }
 
 class Canvas {
 public:
-    Canvas(std::size_t across, std::size_t down) : width_(across), height_(down), depth_(across * down, -INFINITY), colour_(across * down) {}
+    Canvas(std::size_t across, std::size_t down)
+        : width_(across), height_(down), depth_(across * down, -INFINITY), colour_(across * down) {}
 
     void fill(const Corner& a, const Corner& b, const Corner& c) {
         const double twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         if (std::abs(twice_area) < 1e-12) return;
-        const auto first = [](double p, double q, double r) { return std::max(0.0, std::ceil(std::min({p, q, r}) - 0.5)); };
-        const auto last = [](double p, double q, double r, std::size_t end) { return std::min(double(end) - 1, std::floor(std::max({p, q, r}) - 0.5)); };
+        const auto first = [](double p, double q, double r) {
+            return std::max(0.0, std::ceil(std::min({p, q, r}) - 0.5));
+        };
+        const auto last = [](double p, double q, double r, std::size_t end) {
+            return std::min(double(end) - 1, std::floor(std::max({p, q, r}) - 0.5));
+        };
         for (double y = first(a.y, b.y, c.y); y <= last(a.y, b.y, c.y, height_); ++y)
             for (double x = first(a.x, b.x, c.x); x <= last(a.x, b.x, c.x, width_); ++x) {
                 const double px = x + 0.5, py = y + 0.5;
                 const double share_b = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) / twice_area;
-                const double share_c = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / twice_area, share_a = 1 - share_b - share_c;
+                const double share_c = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / twice_area,
+                             share_a = 1 - share_b - share_c;
                 if (share_a < 0 || share_b < 0 || share_c < 0) continue;
                 const std::size_t at = std::size_t(y) * width_ + std::size_t(x);
                 const double depth = share_a * a.depth + share_b * b.depth + share_c * c.depth;
                 if (depth <= depth_[at]) continue;
                 depth_[at] = depth;
                 const Vec3 normal = share_a * a.normal + share_b * b.normal + share_c * c.normal;
-                const double lit = 0.55 + 0.45 * std::abs(normal.z) / std::max(norm(normal), 1e-12);   // as if lit from where one looks
+                const double lit = 0.55 + 0.45 * std::abs(normal.z) /
+                                              std::max(norm(normal), 1e-12);   // as if lit from where one looks
                 colour_[at] = lit * (share_a * a.colour + share_b * b.colour + share_c * c.colour);
             }
     }
@@ -128,7 +137,8 @@ Bitmap draw_field(const SurfaceScene& scene) {
     const std::vector<Vec3> normals = point_normals(scene.surface), colours = point_colours(scene);
     const auto corner = [&](std::uint32_t p) {
         const Vec3& x = scene.surface.points[p];
-        const Vec3 n{dot(scene.view.right, normals[p]), dot(scene.view.up, normals[p]), dot(scene.view.toward, normals[p])};
+        const Vec3 n{dot(scene.view.right, normals[p]), dot(scene.view.up, normals[p]),
+                     dot(scene.view.toward, normals[p])};
         return Corner{page.x(x), page.y(x), page.depth(x), colours[p], n};
     };
     for (const auto& t : scene.surface.triangles) canvas.fill(corner(t[0]), corner(t[1]), corner(t[2]));

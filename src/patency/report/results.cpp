@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_frames = 10;   // of the deployment: enough to see it move; more made the page of a real coronary tree larger than 5 MB
+constexpr std::size_t most_frames =
+    10;   // of the deployment: enough to see it move; more made the page of a real coronary tree larger than 5 MB
 
 std::string text_or_empty(const fs::path& path) { return fs::exists(path) ? read_file(path) : std::string(); }
 
@@ -31,7 +32,8 @@ std::optional<PolyData> polydata_if_there(const fs::path& path) {
 
 FlowPart read_flow(const fs::path& root, const std::string& key, const std::string& title) {
     const bool is_alone = key == "flow";
-    FlowPart flow{.key = key, .title = title, .path = is_alone ? "" : "/" + key, .prefix = is_alone ? "" : key + "/", .deck = {}};
+    FlowPart flow{
+        .key = key, .title = title, .path = is_alone ? "" : "/" + key, .prefix = is_alone ? "" : key + "/", .deck = {}};
     const fs::path folder = root / flow.prefix;
     flow.deck = text_or_empty(folder / "case.resolved.yaml");
     for (const char* name : {"pullback.csv", "sections.csv", "waveforms.csv"})
@@ -70,7 +72,8 @@ std::vector<DeployedBody> read_bodies(const fs::path& folder) {
     // A stent that was opened without mechanics has one shape and no series.
     if (bodies.empty())
         for (const char* name : {"stent", "lumen_after"})
-            if (const fs::path path = folder / fmt::format("{}.vtp", name); fs::exists(path)) bodies.push_back({name, {0}, {read_polydata(path)}});
+            if (const fs::path path = folder / fmt::format("{}.vtp", name); fs::exists(path))
+                bodies.push_back({name, {0}, {read_polydata(path)}});
     return bodies;
 }
 
@@ -80,18 +83,29 @@ const Json& RunResults::part(const FlowPart& flow) const { return summary->at(Js
 
 RunResults read_results(const fs::path& folder) {
     const auto summary = std::make_shared<const Json>(read_summary(folder / "summary.json"));
-    RunResults results{.root = folder, .name = {}, .summary = summary, .timing = {}, .summary_text = read_file(folder / "summary.json"), .flows = {}};
-    if (fs::exists(folder / "timing.json")) results.timing = std::make_shared<const Json>(read_summary(folder / "timing.json"));
-    const auto has = [&](const char* key) { return summary->is_object() && summary->contains(key) && summary->at(key).is_object(); };
+    RunResults results{.root = folder,
+                       .name = {},
+                       .summary = summary,
+                       .timing = {},
+                       .summary_text = read_file(folder / "summary.json"),
+                       .flows = {}};
+    if (fs::exists(folder / "timing.json"))
+        results.timing = std::make_shared<const Json>(read_summary(folder / "timing.json"));
+    const auto has = [&](const char* key) {
+        return summary->is_object() && summary->contains(key) && summary->at(key).is_object();
+    };
     if (has("before")) results.flows.push_back(read_flow(folder, "before", "Before"));
     if (has("after")) results.flows.push_back(read_flow(folder, "after", "After"));
     if (results.flows.empty() && has("openings")) results.flows.push_back(read_flow(folder, "flow", "Flow"));
     results.has_deployment = has("deploy");
     if (results.flows.empty() && !results.has_deployment)
-        throw FileError(fmt::format("'{}' holds no flow and no deployment, so there is no page to make. Give the OUT of patency flow or patency run.",
-                                    folder.string()));
+        throw FileError(
+            fmt::format("'{}' holds no flow and no deployment, so there is no page to make. Give the OUT of patency "
+                        "flow or patency run.",
+                        folder.string()));
     if (results.has_deployment) {
-        const fs::path deployment = fs::is_directory(folder / "deploy") ? folder / "deploy" : folder;   // patency deploy writes into OUT itself
+        const fs::path deployment =
+            fs::is_directory(folder / "deploy") ? folder / "deploy" : folder;   // patency deploy writes into OUT itself
         results.bodies = read_bodies(deployment);
         results.deployment_deck = text_or_empty(deployment / "case.resolved.yaml");
     }
@@ -100,10 +114,13 @@ RunResults read_results(const fs::path& folder) {
 }
 
 std::optional<StentSpan> stent_span(const Json& summary) {
-    if (!summary.contains("deploy") || !summary["deploy"].contains("arc_length_mm") || !summary["deploy"].contains("length_mm")) return {};
+    if (!summary.contains("deploy") || !summary["deploy"].contains("arc_length_mm") ||
+        !summary["deploy"].contains("length_mm"))
+        return {};
     const Json &middle = summary["deploy"]["arc_length_mm"], &length = summary["deploy"]["length_mm"];
     if (!middle.is_number() || !length.is_number()) return {};
-    return StentSpan{middle.get<double>() - 0.5 * length.get<double>(), middle.get<double>() + 0.5 * length.get<double>()};
+    return StentSpan{middle.get<double>() - 0.5 * length.get<double>(),
+                     middle.get<double>() + 0.5 * length.get<double>()};
 }
 
 std::vector<std::string> outlet_names(const Json& flow) {
@@ -119,7 +136,8 @@ std::optional<std::size_t> find_lesion(const Json& flow, const Json& lesion) {
     const Json& lesions = flow.contains("lesions") ? flow["lesions"] : none;
     for (std::size_t k = 0; k < lesions.size(); ++k) {
         const double apart = std::abs(lesions[k].value("throat_arc_mm", 0.0) - lesion.value("throat_arc_mm", 0.0));
-        if (lesions[k].value("branch", "") == lesion.value("branch", "") && apart <= lesion.value("length_mm", 10.0)) return k;
+        if (lesions[k].value("branch", "") == lesion.value("branch", "") && apart <= lesion.value("length_mm", 10.0))
+            return k;
     }
     return {};
 }
@@ -131,7 +149,8 @@ std::optional<std::size_t> worst_lesion(const Json& flow) {
     for (std::size_t k = 0; k < flow["lesions"].size(); ++k) {
         const Json& lesion = flow["lesions"][k];
         const bool has_ffr = lesion.contains("ffr") && lesion["ffr"].is_number();
-        const double badness = has_ffr ? lesion["ffr"].get<double>() : 1e3 - lesion.value("diameter_stenosis_percent", 0.0);
+        const double badness =
+            has_ffr ? lesion["ffr"].get<double>() : 1e3 - lesion.value("diameter_stenosis_percent", 0.0);
         if (badness < least) least = badness, worst = k;
     }
     return worst;

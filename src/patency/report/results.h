@@ -35,17 +35,17 @@ struct FlowPart {
 /// A body while a stent is deployed.
 struct DeployedBody {
     std::string name;
-    std::vector<double> times;       ///< of the frames [s]
+    std::vector<double> times;   ///< of the frames [s]
     std::vector<PolyData> frames;
 };
 
 struct RunResults {
     std::filesystem::path root;
-    std::string name;                 ///< of the case
+    std::string name;                                                ///< of the case
     std::shared_ptr<const nlohmann::ordered_json> summary, timing;   ///< timing is null without timing.json
-    std::string summary_text;         ///< summary.json as it is
+    std::string summary_text;                                        ///< summary.json as it is
     std::vector<FlowPart> flows;
-    bool has_deployment = false;      ///< summary.json has a part "deploy"
+    bool has_deployment = false;   ///< summary.json has a part "deploy"
     std::string deployment_deck{};
     std::vector<DeployedBody> bodies{};
 

@@ -68,15 +68,18 @@ double outlet_through(const CsvTable& pullback, const Json& lesion) {
     constexpr double nearby = 1e-3, tenth = 0.1;   // a millimetre off the throat counts as a tenth of the flow
     double best = 1, least = INFINITY;
     for (std::size_t k = 0; k < arc->size(); ++k) {
-        const double badness = std::abs((*arc)[k] - throat) / nearby + std::abs((*flow)[k] - wanted) / (tenth * std::max(std::abs(wanted), 1e-12));
+        const double badness = std::abs((*arc)[k] - throat) / nearby +
+                               std::abs((*flow)[k] - wanted) / (tenth * std::max(std::abs(wanted), 1e-12));
         if (badness < least - 1e-12) least = badness, best = (*line)[k];
     }
     return best;
 }
 
-Json at_lesions_of(const Json& before, const CsvTable& pullback_before, const Json& after, const CsvTable& pullback_after) {
+Json at_lesions_of(const Json& before, const CsvTable& pullback_before, const Json& after,
+                   const CsvTable& pullback_after) {
     Json places = Json::array();
-    for (const Json& lesion : before["lesions"]) places.push_back(at_lesion(lesion, outlet_through(pullback_before, lesion), after, pullback_after));
+    for (const Json& lesion : before["lesions"])
+        places.push_back(at_lesion(lesion, outlet_through(pullback_before, lesion), after, pullback_after));
     return places;
 }
 

@@ -15,7 +15,7 @@ double outlet_through(const CsvTable& pullback, const nlohmann::ordered_json& le
 /// For each of `before`'s lesions, `after`'s flow at the same arcs of the same line: branch, arcs, flow, drop, velocities, ratio of gauge
 /// pressures and FFR under the keys that lesions have, for summary.json (after.at_lesions). Arguments: parts of summary.json and their
 /// pullback.csv. The drop begins half the lesion's length before its throat.
-nlohmann::ordered_json at_lesions_of(const nlohmann::ordered_json& before, const CsvTable& pullback_before, const nlohmann::ordered_json& after,
-                                     const CsvTable& pullback_after);
+nlohmann::ordered_json at_lesions_of(const nlohmann::ordered_json& before, const CsvTable& pullback_before,
+                                     const nlohmann::ordered_json& after, const CsvTable& pullback_after);
 
 }   // namespace patency

@@ -31,7 +31,8 @@ ColourRange common_range(const RunResults& results, const char* field) {
             if (const PointArray* array = find(*flow.wall, field)) {
                 const PointArray* resolved = find(*flow.wall, "IsResolved");
                 for (std::size_t k = 0; k < array->values.size(); ++k)
-                    if (array->components == 1 && (!resolved || resolved->values[k] != 0)) values.push_back(array->values[k]);
+                    if (array->components == 1 && (!resolved || resolved->values[k] != 0))
+                        values.push_back(array->values[k]);
             }
     if (values.empty()) return {0, 1};
     std::sort(values.begin(), values.end());
@@ -40,14 +41,17 @@ ColourRange common_range(const RunResults& results, const char* field) {
 
 /// The colours in a row, with the values at both ends and in the middle.
 std::string colour_bar(const ColourRange& range, double scale, const std::string& label) {
-    std::string svg = fmt::format("<svg class=\"colour-bar\" viewBox=\"0 0 360 40\" role=\"img\" aria-label=\"colour scale of {}\">", label);
+    std::string svg = fmt::format(
+        "<svg class=\"colour-bar\" viewBox=\"0 0 360 40\" role=\"img\" aria-label=\"colour scale of {}\">", label);
     constexpr int steps = 60;
     for (int k = 0; k < steps; ++k) {
         const auto c = colour_of((k + 0.5) / steps);
-        svg += fmt::format("<rect x=\"{:.1f}\" y=\"4\" width=\"4.6\" height=\"12\" fill=\"#{:02x}{:02x}{:02x}\"/>", 30 + 5.0 * k * 60 / steps, c[0], c[1], c[2]);
+        svg += fmt::format("<rect x=\"{:.1f}\" y=\"4\" width=\"4.6\" height=\"12\" fill=\"#{:02x}{:02x}{:02x}\"/>",
+                           30 + 5.0 * k * 60 / steps, c[0], c[1], c[2]);
     }
     for (const double share : {0.0, 0.5, 1.0})
-        svg += fmt::format("<text x=\"{:.0f}\" y=\"31\" text-anchor=\"middle\">{:.2f}</text>", 30 + 300 * share, scale * (range.low + share * (range.high - range.low)));
+        svg += fmt::format("<text x=\"{:.0f}\" y=\"31\" text-anchor=\"middle\">{:.2f}</text>", 30 + 300 * share,
+                           scale * (range.low + share * (range.high - range.low)));
     return svg + "</svg><p class=\"bar-label\">" + label + "</p>";
 }
 
@@ -61,11 +65,15 @@ std::string pictures(const RunResults& results) {
     std::string html;
     for (const FlowPart& flow : results.flows)
         if (flow.wall) {
-            const Bitmap image = draw_field({.surface = *flow.wall, .array = "Pressure", .range = range, .view = view, .frame = *frame});
-            html += fmt::format("<figure><img alt=\"The vessel's wall coloured by pressure, {}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
-                                flow.title, image.width, image.height, base64(png(image)), flow.title);
+            const Bitmap image =
+                draw_field({.surface = *flow.wall, .array = "Pressure", .range = range, .view = view, .frame = *frame});
+            html += fmt::format(
+                "<figure><img alt=\"The vessel's wall coloured by pressure, {}\" width=\"{}\" height=\"{}\" "
+                "src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
+                flow.title, image.width, image.height, base64(png(image)), flow.title);
         }
-    return "<div class=\"pictures\">" + html + "</div>" + colour_bar(range, as_mmHg.scale, "Pressure at the wall, mmHg, as the deck counts it");
+    return "<div class=\"pictures\">" + html + "</div>" +
+           colour_bar(range, as_mmHg.scale, "Pressure at the wall, mmHg, as the deck counts it");
 }
 
 /// The numbers of a column along the line to one outlet.
@@ -84,7 +92,13 @@ std::string curves(const RunResults& results) {
     const auto& part = results.part(first);
     const auto worst = worst_lesion(part);
     const double outlet = worst ? outlet_through(*first.pullback, part["lesions"][*worst]) : 1;
-    PullbackPlot pressure{.x_label = "Distance from the inlet, mm", .y_label = "Pressure, mmHg", .curves = {}, .spans = {}, .least = {}, .levels = {}}, ffr = pressure;
+    PullbackPlot pressure{.x_label = "Distance from the inlet, mm",
+                          .y_label = "Pressure, mmHg",
+                          .curves = {},
+                          .spans = {},
+                          .least = {},
+                          .levels = {}},
+        ffr = pressure;
     ffr.y_label = "FFR", ffr.levels = {0.8}, ffr.least = 0.7;
     std::string legend;
     for (const FlowPart& flow : results.flows) {
@@ -109,8 +123,10 @@ std::string curves(const RunResults& results) {
         for (PullbackPlot* plot : {&pressure, &ffr}) plot->spans.push_back({span->start, span->end, "stent"});
         legend += " <span class=\"key stent\">stent</span>";
     }
-    return fmt::format("<div class=\"still-curves\"><h3>Along the vessel to {}</h3>\n<p class=\"legend\">{}{}</p>\n{}{}</div>\n", number < names.size() ? escaped(names[number]) : "the outlet", legend,
-                       worst ? " <span class=\"key lesion\">lesion</span>" : "", draw_pullback(pressure), draw_pullback(ffr));
+    return fmt::format(
+        "<div class=\"still-curves\"><h3>Along the vessel to {}</h3>\n<p class=\"legend\">{}{}</p>\n{}{}</div>\n",
+        number < names.size() ? escaped(names[number]) : "the outlet", legend,
+        worst ? " <span class=\"key lesion\">lesion</span>" : "", draw_pullback(pressure), draw_pullback(ffr));
 }
 
 }   // namespace

@@ -34,7 +34,8 @@ std::string csv_line(const std::vector<std::string>& cells) {
 
 /// Pointers of all numbers that are in no list, in their order.
 void collect_numbers(const Json& value, const std::string& pointer, std::vector<std::string>& pointers) {
-    if (value.is_number() && std::find(pointers.begin(), pointers.end(), pointer) == pointers.end()) pointers.push_back(pointer);
+    if (value.is_number() && std::find(pointers.begin(), pointers.end(), pointer) == pointers.end())
+        pointers.push_back(pointer);
     if (value.is_object())
         for (const auto& [key, member] : value.items()) collect_numbers(member, pointer + step(key), pointers);
 }
@@ -84,7 +85,8 @@ std::string sweep_csv(const Sweep& sweep) {
 std::string sweep_text(const Sweep& sweep) {
     std::vector<std::vector<std::string>> lines{sweep.keys};
     const std::vector<SweepQuantity> quantities = sweep_quantities(sweep);
-    for (const SweepQuantity& q : quantities) lines[0].push_back(q.measure.unit.empty() ? q.label : fmt::format("{}, {}", q.label, q.measure.unit));
+    for (const SweepQuantity& q : quantities)
+        lines[0].push_back(q.measure.unit.empty() ? q.label : fmt::format("{}, {}", q.label, q.measure.unit));
     lines[0].push_back("state");
     for (const SweepRow& row : sweep.rows) {
         lines.push_back(row.values);
@@ -129,12 +131,15 @@ Sweep read_sweep(const std::filesystem::path& folder) {
         Sweep sweep{record.at("name"), record.at("command"), record.at("keys"), {}};
         for (const Json& run : record.at("runs")) {
             SweepRow row{.name = run.at("name"), .values = run.at("values"), .reason = run.at("reason")};
-            if (row.values.size() != sweep.keys.size()) throw FileError(fmt::format("'{}' is damaged: a run has {} values of {} keys.", path.string(), row.values.size(), sweep.keys.size()));
+            if (row.values.size() != sweep.keys.size())
+                throw FileError(fmt::format("'{}' is damaged: a run has {} values of {} keys.", path.string(),
+                                            row.values.size(), sweep.keys.size()));
             if (!run.at("exit_code").is_null()) row.exit_code = run.at("exit_code").get<int>();
             if (!run.at("made_from").is_null()) row.made_from = std::make_shared<const Json>(run.at("made_from"));
             const std::filesystem::path summary = folder / row.name / "summary.json";
             const bool has_ended = row.exit_code == int(ExitCode::ok) || row.exit_code == int(ExitCode::bar_missed);
-            if (has_ended && std::filesystem::exists(summary)) row.summary = std::make_shared<const Json>(read_summary(summary));
+            if (has_ended && std::filesystem::exists(summary))
+                row.summary = std::make_shared<const Json>(read_summary(summary));
             sweep.rows.push_back(std::move(row));
         }
         return sweep;

@@ -14,19 +14,20 @@
 namespace patency {
 
 struct SweepRow {
-    std::string name;                    ///< of the run and of its folder
-    std::vector<std::string> values;     ///< of the sweep's keys, as they were written
-    std::optional<int> exit_code{};      ///< absent: has not ended yet
-    std::string reason{};                ///< of a run that failed
-    std::shared_ptr<const nlohmann::ordered_json> made_from{};   ///< deck, inputs and program (origin_summary); may be null
-    std::shared_ptr<const nlohmann::ordered_json> summary{};     ///< its summary.json; null where it has none
+    std::string name;                  ///< of the run and of its folder
+    std::vector<std::string> values;   ///< of the sweep's keys, as they were written
+    std::optional<int> exit_code{};    ///< absent: has not ended yet
+    std::string reason{};              ///< of a run that failed
+    std::shared_ptr<const nlohmann::ordered_json>
+        made_from{};   ///< deck, inputs and program (origin_summary); may be null
+    std::shared_ptr<const nlohmann::ordered_json> summary{};   ///< its summary.json; null where it has none
 
     bool has_results() const { return summary != nullptr; }
 };
 
 struct Sweep {
-    std::string name, command;           ///< of the case; "run", "flow"...
-    std::vector<std::string> keys;       ///< those that vary
+    std::string name, command;       ///< of the case; "run", "flow"...
+    std::vector<std::string> keys;   ///< those that vary
     std::vector<SweepRow> rows;
 };
 

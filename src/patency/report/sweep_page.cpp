@@ -19,39 +19,53 @@ namespace {
 
 constexpr int series_styles = 8;   // of the style sheet
 
-std::string with_unit(const std::string& label, std::string_view unit) { return unit.empty() ? label : fmt::format("{}, {}", label, unit); }
+std::string with_unit(const std::string& label, std::string_view unit) {
+    return unit.empty() ? label : fmt::format("{}, {}", label, unit);
+}
 
 std::string row_html(const Sweep& sweep, const SweepRow& row, const std::vector<SweepQuantity>& quantities) {
-    std::string cells = fmt::format("<td>{}</td>", row.has_results() && sweep.command != "estimate" ? fmt::format("<a href=\"{0}/report.html\">{0}</a>", escaped(row.name)) : escaped(row.name));
+    std::string cells =
+        fmt::format("<td>{}</td>", row.has_results() && sweep.command != "estimate"
+                                       ? fmt::format("<a href=\"{0}/report.html\">{0}</a>", escaped(row.name))
+                                       : escaped(row.name));
     for (const std::string& value : row.values) cells += fmt::format("<td>{}</td>", escaped(value));
     for (const SweepQuantity& q : quantities) {
         const std::string pointer = row.summary ? q.pointer(*row.summary) : "";
-        cells += fmt::format("<td>{}</td>", pointer.empty() ? "<span class=\"none\">–</span>" : Figures(*row.summary).number(pointer, q.measure));
+        cells += fmt::format("<td>{}</td>", pointer.empty() ? "<span class=\"none\">–</span>"
+                                                            : Figures(*row.summary).number(pointer, q.measure));
     }
     const bool is_good = row.exit_code == 0;
-    cells += fmt::format("<td>{}</td>", is_good ? "<span class=\"verdict good\">done</span>" : !row.exit_code ? "has not run yet"
-                                                  : fmt::format("<span class=\"verdict look\">exit code {}</span> {}", *row.exit_code, escaped(row.reason)));
+    cells +=
+        fmt::format("<td>{}</td>", is_good          ? "<span class=\"verdict good\">done</span>"
+                                   : !row.exit_code ? "has not run yet"
+                                                    : fmt::format("<span class=\"verdict look\">exit code {}</span> {}",
+                                                                  *row.exit_code, escaped(row.reason)));
     return fmt::format("<tr data-run=\"{}\">{}</tr>\n", escaped(row.name), cells);
 }
 
 std::string table_section(const Sweep& sweep, const std::vector<SweepQuantity>& quantities) {
     std::string head = "<th>Run</th>", rows;
     for (const std::string& key : sweep.keys) head += fmt::format("<th>{}</th>", escaped(key));
-    for (const SweepQuantity& q : quantities) head += fmt::format("<th>{}</th>", escaped(with_unit(q.label, q.measure.unit)));
+    for (const SweepQuantity& q : quantities)
+        head += fmt::format("<th>{}</th>", escaped(with_unit(q.label, q.measure.unit)));
     for (const SweepRow& row : sweep.rows) rows += row_html(sweep, row, quantities);
-    return fmt::format("<section id=\"runs\">\n<h2>Runs</h2>\n<div class=\"table\"><table>\n<thead><tr>{}<th>State</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n"
-                       "<p class=\"note\">Every number of every run is in <a href=\"sweep.csv\">sweep.csv</a>.</p></section>\n", head, rows);
+    return fmt::format(
+        "<section id=\"runs\">\n<h2>Runs</h2>\n<div "
+        "class=\"table\"><table>\n<thead><tr>{}<th>State</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n"
+        "<p class=\"note\">Every number of every run is in <a href=\"sweep.csv\">sweep.csv</a>.</p></section>\n",
+        head, rows);
 }
 
 /// What the plots' horizontal axis is: the first key with numbers that differ, else the runs in their order.
 struct AcrossPlots {
     std::string label;
-    std::vector<double> x;               ///< one for each row
+    std::vector<double> x;   ///< one for each row
     std::optional<std::size_t> key;
 };
 AcrossPlots across_plots(const Sweep& sweep) {
     for (std::size_t k = 0; k < sweep.keys.size(); ++k)
-        if (auto scale = scale_of(sweep, k); scale && std::minmax_element(scale->values.begin(), scale->values.end()) != std::pair(scale->values.begin(), scale->values.begin()))
+        if (auto scale = scale_of(sweep, k); scale && std::minmax_element(scale->values.begin(), scale->values.end()) !=
+                                                          std::pair(scale->values.begin(), scale->values.begin()))
             return {with_unit(sweep.keys[k], scale->unit), std::move(scale->values), k};
     AcrossPlots runs{"run, as in the table", std::vector<double>(sweep.rows.size()), {}};
     std::iota(runs.x.begin(), runs.x.end(), 1);
@@ -86,13 +100,20 @@ std::string plots_section(const Sweep& sweep, const std::vector<SweepQuantity>& 
     const AcrossPlots across = across_plots(sweep);
     std::string html;
     for (const SweepQuantity& q : quantities) {
-        const PullbackPlot plot{.x_label = across.label, .y_label = with_unit(q.label, q.measure.unit), .curves = curves_of(sweep, q, across), .spans = {}, .levels = {},
-                                .title = q.label + " over " + across.label, .has_points = true};
+        const PullbackPlot plot{.x_label = across.label,
+                                .y_label = with_unit(q.label, q.measure.unit),
+                                .curves = curves_of(sweep, q, across),
+                                .spans = {},
+                                .levels = {},
+                                .title = q.label + " over " + across.label,
+                                .has_points = true};
         std::string legend;
         if (plot.curves.size() > 1)
-            for (const PullbackCurve& curve : plot.curves) legend += fmt::format("<span class=\"key {}\">{}</span> ", curve.style, escaped(curve.label));
+            for (const PullbackCurve& curve : plot.curves)
+                legend += fmt::format("<span class=\"key {}\">{}</span> ", curve.style, escaped(curve.label));
         if (const std::string svg = draw_pullback(plot); !svg.empty())
-            html += fmt::format("<h3>{}</h3>\n{}{}", escaped(plot.title), legend.empty() ? "" : "<p class=\"legend\">" + legend + "</p>\n", svg);
+            html += fmt::format("<h3>{}</h3>\n{}{}", escaped(plot.title),
+                                legend.empty() ? "" : "<p class=\"legend\">" + legend + "</p>\n", svg);
     }
     return html.empty() ? "" : "<section id=\"plots\">\n<h2>Compared</h2>\n" + html + "</section>\n";
 }
@@ -101,9 +122,13 @@ std::string plots_section(const Sweep& sweep, const std::vector<SweepQuantity>& 
 
 std::string sweep_page(const Sweep& sweep, std::string_view version) {
     const std::vector<SweepQuantity> quantities = sweep_quantities(sweep);
-    const auto ended = std::count_if(sweep.rows.begin(), sweep.rows.end(), [](const SweepRow& row) { return row.exit_code.has_value(); });
-    return page_head(sweep.name) + "<body>\n" + page_masthead(sweep.name, fmt::format("{} of {} runs of patency {}", ended, sweep.rows.size(), escaped(sweep.command))) + "<main>\n" +
-           table_section(sweep, quantities) + plots_section(sweep, quantities) + "</main>\n" + page_footer(version, "Every number here is one of a run's summary.json.") + "</body>\n</html>\n";
+    const auto ended = std::count_if(sweep.rows.begin(), sweep.rows.end(),
+                                     [](const SweepRow& row) { return row.exit_code.has_value(); });
+    return page_head(sweep.name) + "<body>\n" +
+           page_masthead(sweep.name,
+                         fmt::format("{} of {} runs of patency {}", ended, sweep.rows.size(), escaped(sweep.command))) +
+           "<main>\n" + table_section(sweep, quantities) + plots_section(sweep, quantities) + "</main>\n" +
+           page_footer(version, "Every number here is one of a run's summary.json.") + "</body>\n</html>\n";
 }
 
 }   // namespace patency

@@ -46,17 +46,26 @@ const SweepQuantity known_quantities[] = {
     {"Pressure drop", "drop_pa", as_mmHg, [](const Json& s) { return at_worst_lesion(s, "/drop_pa"); }},
     {"Pressure drop after", "drop_after_pa", as_mmHg, [](const Json& s) { return where_it_was(s, "/drop_pa"); }},
     {"Inflow", "inlet_flow_m3_per_s", inflow, [](const Json& s) { return inlet_flow(s, first_flow(s)); }},
-    {"Inflow after", "inlet_flow_after_m3_per_s", inflow, [](const Json& s) { return s.contains("after") ? inlet_flow(s, "/after") : std::string(); }},
-    {"Minimum stent diameter", "stent_minimum_diameter_mm", as_mm, [](const Json&) { return std::string("/deploy/minimum_diameter_mm"); }},
+    {"Inflow after", "inlet_flow_after_m3_per_s", inflow,
+     [](const Json& s) { return s.contains("after") ? inlet_flow(s, "/after") : std::string(); }},
+    {"Minimum stent diameter", "stent_minimum_diameter_mm", as_mm,
+     [](const Json&) { return std::string("/deploy/minimum_diameter_mm"); }},
     {"Recoil", "recoil_percent", as_percent, [](const Json&) { return std::string("/deploy/recoil_percent"); }},
-    {"Struts off the wall", "malapposed_percent", as_percent, [](const Json&) { return std::string("/deploy/malapposed_percent"); }},
-    {"Kinetic over internal energy", "kinetic_to_internal", {"", 1, 4}, [](const Json& s) { return std::string(s.contains("deploy") ? "/deploy/kinetic_to_internal" : "/kinetic_to_internal"); }},
+    {"Struts off the wall", "malapposed_percent", as_percent,
+     [](const Json&) { return std::string("/deploy/malapposed_percent"); }},
+    {"Kinetic over internal energy",
+     "kinetic_to_internal",
+     {"", 1, 4},
+     [](const Json& s) {
+         return std::string(s.contains("deploy") ? "/deploy/kinetic_to_internal" : "/kinetic_to_internal");
+     }},
 };
 
 /// "3.5 mPa s" -> 3.5, "mPa s"; quotes do not count.
 std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text) {
     text = trimmed(text);
-    if (text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front()) text = trimmed(text.substr(1, text.size() - 2));
+    if (text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front())
+        text = trimmed(text.substr(1, text.size() - 2));
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{}) return {};
@@ -76,7 +85,9 @@ std::optional<double> value_of(const SweepRow& row, const SweepQuantity& quantit
 std::vector<SweepQuantity> sweep_quantities(const Sweep& sweep) {
     std::vector<SweepQuantity> there;
     for (const SweepQuantity& quantity : known_quantities)
-        if (std::any_of(sweep.rows.begin(), sweep.rows.end(), [&](const SweepRow& row) { return value_of(row, quantity).has_value(); })) there.push_back(quantity);
+        if (std::any_of(sweep.rows.begin(), sweep.rows.end(),
+                        [&](const SweepRow& row) { return value_of(row, quantity).has_value(); }))
+            there.push_back(quantity);
     return there;
 }
 
@@ -90,7 +101,9 @@ std::optional<SweepScale> scale_of(const Sweep& sweep, std::size_t key) {
         if (!read->second.empty() && !unit) return {};
         if (scale.values.empty()) first = unit, scale.unit = unit ? unit->name() : "";
         if ((unit != nullptr) != (first != nullptr) || (unit && unit->dimension != first->dimension)) return {};
-        scale.values.push_back(unit ? read->first * (unit->numerator / unit->denominator) / (first->numerator / first->denominator) : read->first);
+        scale.values.push_back(unit ? read->first * (unit->numerator / unit->denominator) /
+                                          (first->numerator / first->denominator)
+                                    : read->first);
     }
     return scale;
 }

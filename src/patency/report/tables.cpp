@@ -17,15 +17,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A heading over each flow's columns, when there are several.
-std::vector<std::string> with_flows(const RunResults& results, std::vector<std::string> head, const std::vector<std::string>& columns) {
+std::vector<std::string> with_flows(const RunResults& results, std::vector<std::string> head,
+                                    const std::vector<std::string>& columns) {
     for (const FlowPart& flow : results.flows)
         for (const std::string& column : columns)
-            head.push_back(results.flows.size() > 1 ? fmt::format("{}<br><span class=\"{}\">{}</span>", column, flow.key, flow.title) : column);
+            head.push_back(results.flows.size() > 1
+                               ? fmt::format("{}<br><span class=\"{}\">{}</span>", column, flow.key, flow.title)
+                               : column);
     return head;
 }
 
 /// A row whose cells are the same numbers of every flow.
-std::vector<std::string> cells_of(const RunResults& results, std::vector<std::string> cells, const std::vector<std::function<std::string(const std::string& path)>>& columns) {
+std::vector<std::string> cells_of(const RunResults& results, std::vector<std::string> cells,
+                                  const std::vector<std::function<std::string(const std::string& path)>>& columns) {
     for (const FlowPart& flow : results.flows)
         for (const auto& column : columns) cells.push_back(column(flow.path));
     return cells;
@@ -42,14 +46,19 @@ std::string split_table(const RunResults& results) {
     for (const auto& [name, opening] : first_part(results)["openings"].items()) {
         const std::string at = "/openings" + step(name);
         const double share = name == "inlet" ? 100.0 : -100.0;   // percent, out is positive
-        rows += table_row(cells_of(results, {escaped(name)},
-                                   {[&](const std::string& path) { return f.number(path + at + "/flow_m3_per_s", flow); },
-                                    [&](const std::string& path) { return f.ratio(path + at + "/flow_m3_per_s", path + "/openings/inlet/flow_m3_per_s", {"%", share, 1}); },
-                                    [&](const std::string& path) { return f.number(path + at + "/mean_pressure_pa", as_mmHg); },
-                                    [&](const std::string& path) { return f.number(path + at + "/mean_velocity_m_per_s", as_m_per_s); }}));
+        rows += table_row(cells_of(
+            results, {escaped(name)},
+            {[&](const std::string& path) { return f.number(path + at + "/flow_m3_per_s", flow); },
+             [&](const std::string& path) {
+                 return f.ratio(path + at + "/flow_m3_per_s", path + "/openings/inlet/flow_m3_per_s", {"%", share, 1});
+             },
+             [&](const std::string& path) { return f.number(path + at + "/mean_pressure_pa", as_mmHg); },
+             [&](const std::string& path) { return f.number(path + at + "/mean_velocity_m_per_s", as_m_per_s); }}));
     }
     return table("Openings (out is positive)",
-                 with_flows(results, {"Opening"}, {fmt::format("Flow, {}", flow.unit), "Share, %", "Pressure, mmHg", "Velocity, m/s"}), rows);
+                 with_flows(results, {"Opening"},
+                            {fmt::format("Flow, {}", flow.unit), "Share, %", "Pressure, mmHg", "Velocity, m/s"}),
+                 rows);
 }
 
 std::vector<std::string> branch_names(const Json& part) {
@@ -77,19 +86,27 @@ std::string branch_table(const RunResults& results) {
     for (const std::string& name : names) {
         std::string length = "/none";
         for (const FlowPart& flow : results.flows)
-            if (const std::string here = branch_called(results, flow.path, name) + "/length_mm"; !f.has(length)) length = here;
-        const auto at = [&](const std::string& path, const char* key) { return branch_called(results, path, name) + key; };
-        rows += table_row(cells_of(results, {escaped(name), f.number(length, as_mm)},
-                                   {[&](const std::string& path) { return f.number(at(path, "/flow_m3_per_s"), as_mL_per_min); },
-                                    [&](const std::string& path) { return f.number(at(path, "/pressure_end_pa"), as_mmHg); },
-                                    [&](const std::string& path) { return f.number(at(path, "/ffr_end"), as_ratio); },
-                                    [&](const std::string& path) {
-                                        const Json::json_pointer place(at(path, "/is_under_resolved"));
-                                        const bool is_coarse = results.summary->contains(place) && results.summary->at(place) == true;
-                                        return f.number(at(path, "/particles_across"), as_across) + (is_coarse ? " <span class=\"verdict look\">few</span>" : "");
-                                    }}));
+            if (const std::string here = branch_called(results, flow.path, name) + "/length_mm"; !f.has(length))
+                length = here;
+        const auto at = [&](const std::string& path, const char* key) {
+            return branch_called(results, path, name) + key;
+        };
+        rows += table_row(
+            cells_of(results, {escaped(name), f.number(length, as_mm)},
+                     {[&](const std::string& path) { return f.number(at(path, "/flow_m3_per_s"), as_mL_per_min); },
+                      [&](const std::string& path) { return f.number(at(path, "/pressure_end_pa"), as_mmHg); },
+                      [&](const std::string& path) { return f.number(at(path, "/ffr_end"), as_ratio); },
+                      [&](const std::string& path) {
+                          const Json::json_pointer place(at(path, "/is_under_resolved"));
+                          const bool is_coarse = results.summary->contains(place) && results.summary->at(place) == true;
+                          return f.number(at(path, "/particles_across"), as_across) +
+                                 (is_coarse ? " <span class=\"verdict look\">few</span>" : "");
+                      }}));
     }
-    return table("Branches", with_flows(results, {"Branch", "Length, mm"}, {"Flow, mL/min", "Pressure at its end, mmHg", "FFR at its end", "Particles across"}), rows);
+    return table("Branches",
+                 with_flows(results, {"Branch", "Length, mm"},
+                            {"Flow, mL/min", "Pressure at its end, mmHg", "FFR at its end", "Particles across"}),
+                 rows);
 }
 
 std::string lesion_table(const RunResults& results) {
@@ -100,16 +117,22 @@ std::string lesion_table(const RunResults& results) {
         if (!part.contains("lesions")) continue;
         for (std::size_t k = 0; k < part["lesions"].size(); ++k) {
             const std::string at = flow.path + "/lesions" + step(k);
-            const std::string when = results.flows.size() > 1 ? fmt::format("<span class=\"{}\">{}</span> ", flow.key, flow.title) : "";
-            rows += table_row({when + f.text(at + "/branch"), f.number(at + "/throat_arc_mm", as_mm), f.number(at + "/length_mm", as_mm), f.number(at + "/minimum_diameter_mm", as_mm),
-                               f.number(at + "/diameter_stenosis_percent", as_percent), f.number(at + "/area_stenosis_percent", as_percent),
-                               f.number(at + "/flow_m3_per_s", as_mL_per_min), f.number(at + "/drop_pa", as_mmHg), f.number(at + "/ffr", as_ratio),
-                               f.number(at + "/read_arc_mm", as_mm), f.number(at + "/gauge_pressure_ratio", as_ratio)});
+            const std::string when =
+                results.flows.size() > 1 ? fmt::format("<span class=\"{}\">{}</span> ", flow.key, flow.title) : "";
+            rows += table_row({when + f.text(at + "/branch"), f.number(at + "/throat_arc_mm", as_mm),
+                               f.number(at + "/length_mm", as_mm), f.number(at + "/minimum_diameter_mm", as_mm),
+                               f.number(at + "/diameter_stenosis_percent", as_percent),
+                               f.number(at + "/area_stenosis_percent", as_percent),
+                               f.number(at + "/flow_m3_per_s", as_mL_per_min), f.number(at + "/drop_pa", as_mmHg),
+                               f.number(at + "/ffr", as_ratio), f.number(at + "/read_arc_mm", as_mm),
+                               f.number(at + "/gauge_pressure_ratio", as_ratio)});
         }
     }
     if (rows.empty()) return {};
-    return table("Lesions", {"Lesion in", "Throat at, mm", "Length, mm", "Minimum lumen, mm", "Diameter stenosis, %", "Area stenosis, %", "Flow, mL/min",
-                             "Drop, mmHg", "FFR", "read at, mm", "Gauge ratio"}, rows);
+    return table("Lesions",
+                 {"Lesion in", "Throat at, mm", "Length, mm", "Minimum lumen, mm", "Diameter stenosis, %",
+                  "Area stenosis, %", "Flow, mL/min", "Drop, mmHg", "FFR", "read at, mm", "Gauge ratio"},
+                 rows);
 }
 
 /// The reference paper's table VI, row by row, its signs and units.
@@ -123,18 +146,26 @@ std::string paper_table(const RunResults& results) {
         for (std::size_t k = 0; k < results.flows.size(); ++k) cells.push_back(cell(k));
         rows += table_row(cells);
     };
-    const auto opening_at = [&](std::size_t k, const std::string& name, const char* key) { return results.flows[k].path + "/openings" + step(name) + key; };
+    const auto opening_at = [&](std::size_t k, const std::string& name, const char* key) {
+        return results.flows[k].path + "/openings" + step(name) + key;
+    };
     const auto lesion_at = [&](std::size_t k, const char* key) { return focus.in_flow[k].value_or("/none") + key; };
     std::vector<std::string> names{"inlet"};
     for (const std::string& outlet : outlet_names(first_part(results))) names.push_back(outlet);
     for (const std::string& name : names)
-        add("Velocity at " + escaped(name) + ", m/s", [&](std::size_t k) { return f.number(opening_at(k, name, "/mean_velocity_m_per_s"), {"", name == "inlet" ? -1.0 : 1.0, 3}); });
-    add("Velocity before the stenosis, m/s", [&](std::size_t k) { return f.number(lesion_at(k, "/velocity_before_m_per_s"), as_m_per_s); });
-    add("Velocity behind the stenosis, m/s", [&](std::size_t k) { return f.number(lesion_at(k, "/velocity_behind_m_per_s"), as_m_per_s); });
+        add("Velocity at " + escaped(name) + ", m/s", [&](std::size_t k) {
+            return f.number(opening_at(k, name, "/mean_velocity_m_per_s"), {"", name == "inlet" ? -1.0 : 1.0, 3});
+        });
+    add("Velocity before the stenosis, m/s",
+        [&](std::size_t k) { return f.number(lesion_at(k, "/velocity_before_m_per_s"), as_m_per_s); });
+    add("Velocity behind the stenosis, m/s",
+        [&](std::size_t k) { return f.number(lesion_at(k, "/velocity_behind_m_per_s"), as_m_per_s); });
     for (const std::string& name : names)
-        add("Flow at " + escaped(name) + ", m³/s (in is positive)", [&](std::size_t k) { return f.scientific(opening_at(k, name, "/flow_m3_per_s"), 2, -1); });
+        add("Flow at " + escaped(name) + ", m³/s (in is positive)",
+            [&](std::size_t k) { return f.scientific(opening_at(k, name, "/flow_m3_per_s"), 2, -1); });
     add("Flow through the stenosis, m³/s", [&](std::size_t k) { return f.scientific(lesion_at(k, "/flow_m3_per_s")); });
-    add("Gauge pressure ratio (called FFR there)", [&](std::size_t k) { return f.number(lesion_at(k, "/gauge_pressure_ratio"), as_ratio); });
+    add("Gauge pressure ratio (called FFR there)",
+        [&](std::size_t k) { return f.number(lesion_at(k, "/gauge_pressure_ratio"), as_ratio); });
     std::vector<std::string> head{"Quantity"};
     for (const FlowPart& flow : results.flows) head.push_back(flow.title);
     return table("In the form of the reference paper's table VI", head, rows);
@@ -146,13 +177,16 @@ std::string outlet_table(const RunResults& results) {
     const std::string path = results.flows.front().path;
     if (!first_part(results).contains("openings")) return {};
     for (const auto& [name, opening] : first_part(results)["openings"].items())
-        rows += table_row({escaped(name), f.number(path + "/openings" + step(name) + "/area_m2", {"mm²", 1e6, 2}), f.scientific(path + "/openings" + step(name) + "/resistance_pa_s_per_m3", 3),
+        rows += table_row({escaped(name), f.number(path + "/openings" + step(name) + "/area_m2", {"mm²", 1e6, 2}),
+                           f.scientific(path + "/openings" + step(name) + "/resistance_pa_s_per_m3", 3),
                            f.number(path + "/openings" + step(name) + "/distal_pressure_pa", as_mmHg)});
-    return table("What lies behind the openings", {"Opening", "Area, mm²", "Resistance, Pa s/m³", "Pressure behind it, mmHg"}, rows);
+    return table("What lies behind the openings",
+                 {"Opening", "Area, mm²", "Resistance, Pa s/m³", "Pressure behind it, mmHg"}, rows);
 }
 
 /// Every number of the deployment, whatever the run has found worth giving.
-void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of, const Measure& inherited) {
+void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of,
+                 const Measure& inherited) {
     for (const auto& [key, value] : part.items()) {
         const Measure measure = says_unit(key) ? measure_of(key) : inherited;   // {"stress_pa": {"p50": 1, "p99": 2}}
         if (value.is_number()) rows += table_row({escaped(of + words_of(key)), f.with_unit(path + step(key), measure)});
@@ -177,8 +211,11 @@ std::string material_table(const RunResults& results) {
         const std::string at = "/materials" + step(k);
         std::string numbers;
         for (const auto& [key, value] : summary["materials"][k].items())
-            if (value.is_number()) numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", escaped(words_of(key)), f.with_unit(at + step(key), measure_of(key)));
-        rows += table_row({f.text(at + "/part"), f.text(at + "/what"), numbers, "<span class=\"source\">" + f.text(at + "/source") + "</span>"});
+            if (value.is_number())
+                numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", escaped(words_of(key)),
+                                       f.with_unit(at + step(key), measure_of(key)));
+        rows += table_row({f.text(at + "/part"), f.text(at + "/what"), numbers,
+                           "<span class=\"source\">" + f.text(at + "/source") + "</span>"});
     }
     return table("Materials", {"Part", "What", "Numbers", "Source"}, rows);
 }
@@ -218,14 +255,18 @@ std::string run_numbers(const RunResults& results) {
 
 std::string table_row(const std::vector<std::string>& cells) {
     std::string row = "<tr>";
-    for (std::size_t k = 0; k < cells.size(); ++k) row += fmt::format("<{0}>{1}</{2}>", k == 0 ? "th scope=\"row\"" : "td", cells[k], k == 0 ? "th" : "td");
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        row += fmt::format("<{0}>{1}</{2}>", k == 0 ? "th scope=\"row\"" : "td", cells[k], k == 0 ? "th" : "td");
     return row + "</tr>\n";
 }
 
 std::string table(const std::string& caption, const std::vector<std::string>& head, const std::string& rows) {
     std::string cells;
     for (const std::string& text : head) cells += "<th scope=\"col\">" + text + "</th>";
-    return fmt::format("<div class=\"table\" tabindex=\"0\"><table><caption>{}</caption><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n", caption, cells, rows);
+    return fmt::format(
+        "<div class=\"table\" "
+        "tabindex=\"0\"><table><caption>{}</caption><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
+        caption, cells, rows);
 }
 
 std::string tables_section(const RunResults& results) {

@@ -26,7 +26,8 @@ View broad_view(std::span<const Vec3> points) {
     Mat3 spread{};
     for (const Vec3& x : points) spread = spread + outer(x - mean, x - mean);
     const SymmetricEigen e = symmetric_eigen(spread);
-    std::array<std::pair<double, Vec3>, 3> axes = {{{e.values.x, e.vectors.x}, {e.values.y, e.vectors.y}, {e.values.z, e.vectors.z}}};
+    std::array<std::pair<double, Vec3>, 3> axes = {
+        {{e.values.x, e.vectors.x}, {e.values.y, e.vectors.y}, {e.values.z, e.vectors.z}}};
     std::sort(axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     const Vec3 right = positive(axes[0].second), up = positive(axes[1].second);
     return {right, up, cross(right, up)};

@@ -19,7 +19,8 @@ namespace {
 double level_of_ends(std::span<const CellEnd> ends) {
     double largest = 0, smallest = INFINITY, pressures = 0, conductance = 0, enters = 0;
     for (const CellEnd& end : ends)
-        if (end.kind == CellEnd::Kind::pressure) largest = std::max(largest, end.resistance), smallest = std::min(smallest, end.resistance);
+        if (end.kind == CellEnd::Kind::pressure)
+            largest = std::max(largest, end.resistance), smallest = std::min(smallest, end.resistance);
     const double least = largest > 0 ? 1e-6 * largest : 1;   // of an end without a resistance: it decides
     for (const CellEnd& end : ends) {
         if (end.kind != CellEnd::Kind::pressure) {
@@ -221,7 +222,8 @@ void CellBalance::compute_patch_fluxes() {
             patch_flux_[k] = through_open(cell, patch.area, d, ends_[std::size_t(patch.opening)].pressure,
                                           ends_[std::size_t(patch.opening)].flow < 0 ? imposed(k) : Vec3{}, transport_);
         else
-            patch_flux_[k] = through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k), transport_);
+            patch_flux_[k] =
+                through_imposed(cell, patch.area, d, patch.distance, imposed(k), imposed_gradient(k), transport_);
     });
 }
 
@@ -255,7 +257,9 @@ void CellBalance::sum_fluxes() {
         const CellState& cell = state_[patch.cell];
         return wall_viscosity(cell, patch) * norm(patch.area) * norm(wall_slope(cell, way_to(patch), patch.distance));
     });
-    if (rate_ > 0) force += sum_of(mesh_.size(), [&](std::size_t i) { return mesh_.volume[i] * norm(rate_ * u_[i] + rate_rest_[i]); });
+    if (rate_ > 0)
+        force +=
+            sum_of(mesh_.size(), [&](std::size_t i) { return mesh_.volume[i] * norm(rate_ * u_[i] + rate_rest_[i]); });
     const double none = 1e-300;
     scales_ = {std::max({through, least_scales_.flow, none}), std::max({force, least_scales_.force, none})};
     volume_residual_ = sum_of(mesh_.size(), [&](std::size_t i) { return std::abs(lack_[i].volume); }) / scales_.flow;
@@ -319,7 +323,10 @@ void CellBalance::fill(const PseudoStep& step, CellMatrix& matrix, CellVectors& 
         const double slowness = signals / (2 * step.courant);
         m_diagonal += slowness + rate_ * mesh_.volume[i];
         p_diagonal += step.pressure_share * slowness / (cell.c * cell.c);
-        level.diagonal[i] = {.p_diagonal = float(p_diagonal), .m_diagonal = float(m_diagonal), .gradient = quad(0, gradient), .divergence = quad(0, divergence)};
+        level.diagonal[i] = {.p_diagonal = float(p_diagonal),
+                             .m_diagonal = float(m_diagonal),
+                             .gradient = quad(0, gradient),
+                             .divergence = quad(0, divergence)};
         right[i] = quad(-lack_[i].volume, -1.0 * lack_[i].momentum);
     });
     matrix.make_coarse();

@@ -75,7 +75,9 @@ public:
 
     void set_fields(const CellFields& fields);
     CellFields fields() const;
-    void set_transport(const cell_terms::Transport& transport) { transport_ = transport; }   ///< sharp, if nothing is said
+    void set_transport(const cell_terms::Transport& transport) {
+        transport_ = transport;
+    }   ///< sharp, if nothing is said
 
     /// Gradients, viscosities, sound speeds and fluxes of the fields that stand, and what they lack. THEORY.md (18.3)
     void compute_residual(double kappa);
@@ -137,7 +139,9 @@ private:
         return patch.opening >= 0 && !ends_[std::size_t(patch.opening)].is_imposed();
     }
     /// What an opening's flow is at a patch of it, with the end's profile; and the patch's share of the flow.
-    Vec3 imposed(std::size_t k) const { return rest_[k] - ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_[k]; }
+    Vec3 imposed(std::size_t k) const {
+        return rest_[k] - ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_[k];
+    }
     Mat3 imposed_gradient(std::size_t k) const {
         return rest_gradient_[k] - ends_[std::size_t(mesh_.patches[k].opening)].flow * profile_gradient_[k];
     }
@@ -154,11 +158,11 @@ private:
     std::vector<double> width_;   // of a cell [m]
     std::vector<Vec3> profile_;   // per patch: the velocity of a flow of -1 through its end
     std::vector<Mat3> profile_gradient_;
-    std::vector<Vec3> rest_;      // per patch: what is imposed beside that, and carries nothing
+    std::vector<Vec3> rest_;   // per patch: what is imposed beside that, and carries nothing
     std::vector<Mat3> rest_gradient_;
     std::vector<End> ends_;
-    double rate_ = 0;             // of the time derivative [1/m]
-    std::vector<Vec3> rate_rest_; // [1/m]
+    double rate_ = 0;               // of the time derivative [1/m]
+    std::vector<Vec3> rate_rest_;   // [1/m]
     CellScales least_scales_, scales_;
 
     std::vector<cell_terms::CellState> state_;

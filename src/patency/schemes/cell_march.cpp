@@ -11,8 +11,9 @@ namespace patency {
 
 namespace {
 
-constexpr int most_iterations = 60;    // of a step; a good one takes less than ten
-constexpr double krylov_tolerance = 0.01;   // where a stiff outlet is most of what is lacking, a tenth would leave the vessel as it is
+constexpr int most_iterations = 60;   // of a step; a good one takes less than ten
+constexpr double krylov_tolerance =
+    0.01;   // where a stiff outlet is most of what is lacking, a tenth would leave the vessel as it is
 constexpr double first_courant = 1e4, courant = 1e6;   // of cells, beside the step's own time
 
 double place_of(const OpenEnd& end, double radius, const Vec3& x) {
@@ -54,7 +55,9 @@ void CellMarch::start_feeding() {
 }
 
 FlowStep CellMarch::step(double time, double longest) {
-    constexpr double growth = 2, shortest = 1e-3;   // of steps from one to the next (2.4 is where (18.16) grows by itself); of the longest
+    constexpr double growth = 2,
+                     shortest =
+                         1e-3;   // of steps from one to the next (2.4 is where (18.16) grows by itself); of the longest
     const double allowed = std::min(domain_.longest_step, dt_before_ > 0 ? growth * dt_before_ : domain_.first_step);
     const bool fits = longest <= allowed * (1 + 1e-6);   // no crumb of round-off is left behind
     const auto before = state();
@@ -87,14 +90,17 @@ std::vector<CellEnd> CellMarch::ends_at(double time) {
         const MarchedEnd& marched = domain_.marched[k];
         const DevelopedFlow& feeding = feeding_[k];
         const auto inwards = [&](double (DevelopedFlow::*speed)(double) const) {
-            return [&end, &feeding, speed, radius = marched.radius](const Vec3& x) { return -(feeding.*speed)(place_of(end, radius, x)) * end.normal; };
+            return [&end, &feeding, speed, radius = marched.radius](const Vec3& x) {
+                return -(feeding.*speed)(place_of(end, radius, x)) * end.normal;
+            };
         };
         CellEnd now{.kind = marched.kind, .pressure = end.pressure + offset_[k], .resistance = end.resistance};
         now.velocity = inwards(&DevelopedFlow::unit);
         now.rest = inwards(&DevelopedFlow::rest);
         if (end.kind == OpenEnd::Kind::velocity) {
             now.flow = end.imposed_flow(time);
-            if (marched.kind == CellEnd::Kind::velocity) now.rest = [&end, time](const Vec3& x) { return end.velocity(x, time); };
+            if (marched.kind == CellEnd::Kind::velocity)
+                now.rest = [&end, time](const Vec3& x) { return end.velocity(x, time); };
         }
         ends.push_back(std::move(now));
     }
@@ -139,9 +145,11 @@ int CellMarch::solve() {
     balance_->set_transport(cell_terms::sharp);
     try {
         return int(solve_instant(*balance_, matrix_, settings).history.size());
-    } catch (const DivergedError&) {   // a start from rest, a jolt: the damped transport goes on in smaller steps where the sharp one does not
+    } catch (
+        const DivergedError&) {   // a start from rest, a jolt: the damped transport goes on in smaller steps where the sharp one does not
         const CellSolverSettings careful;
-        settings.most_iterations = careful.most_iterations, settings.first_courant = careful.first_courant, settings.courant = careful.courant;
+        settings.most_iterations = careful.most_iterations, settings.first_courant = careful.first_courant,
+        settings.courant = careful.courant;
         settings.mixes_below = 0;
         balance_->set_fields(start);
         balance_->set_transport(cell_terms::damped);
@@ -193,7 +201,8 @@ std::map<std::string, std::vector<double>> CellMarch::state() const {
 
 void CellMarch::restore(const std::map<std::string, std::vector<double>>& state) {
     const auto& before = state.at("velocity_before");
-    for (std::size_t i = 0; i < velocity_before_.size(); ++i) velocity_before_[i] = {before[3 * i], before[3 * i + 1], before[3 * i + 2]};
+    for (std::size_t i = 0; i < velocity_before_.size(); ++i)
+        velocity_before_[i] = {before[3 * i], before[3 * i + 1], before[3 * i + 2]};
     pressure_before_ = state.at("pressure_before");
     end_pressure_before_ = state.at("end_pressure_before");
     dt_before_ = state.at("steps")[0];

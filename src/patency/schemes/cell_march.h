@@ -34,7 +34,7 @@ struct CellMarchDomain {
     CellFluid material;
     FluidParticles& fluid;
     std::vector<OpenEnd>& ends;
-    std::vector<MarchedEnd> marched;   ///< as the ends
+    std::vector<MarchedEnd> marched;                    ///< as the ends
     double reference_speed, first_step, longest_step;   ///< [m/s], [s]
     MarchedStep each_step = {};
 };
@@ -63,10 +63,11 @@ private:
     CellMatrix matrix_;
     std::vector<DevelopedFlow> feeding_;   // as the ends
     std::unique_ptr<CellBalance> balance_;
-    std::vector<Vec3> velocity_before_;    // [m/s]
+    std::vector<Vec3> velocity_before_;                           // [m/s]
     std::vector<double> pressure_before_, end_pressure_before_;   // [Pa]
     double dt_before_ = 0;
-    std::vector<double> offset_;   // of the pressure imposed at an end, so that the mean over its cells is the one wanted [Pa]
+    std::vector<double>
+        offset_;   // of the pressure imposed at an end, so that the mean over its cells is the one wanted [Pa]
     CellScales scales_;
 };
 

@@ -114,7 +114,8 @@ CellLevel make_level(const Graph& graph) {
             const std::uint32_t j = graph.column[k];
             (level.is_earlier(j, i) ? level.earlier : level.later).entry.push_back({{}, 0, j});
         }
-        for (CellTriangle* part : {&level.earlier, &level.later}) part->start.push_back(std::uint32_t(part->entry.size()));
+        for (CellTriangle* part : {&level.earlier, &level.later})
+            part->start.push_back(std::uint32_t(part->entry.size()));
     }
     return level;
 }
@@ -196,28 +197,33 @@ void for_each_run(const CellLevel& level, const std::vector<std::uint32_t>& runs
         const std::size_t begin = runs[k] * CellLevel::run_length;
         rows(begin, std::min(level.size(), begin + CellLevel::run_length));
     };
-    if (runs.size() == 1) run(0);
-    else for_each_task(runs.size(), run);
+    if (runs.size() == 1)
+        run(0);
+    else
+        for_each_task(runs.size(), run);
 }
 
 /// What was there of x counts as zero, so only neighbours that the sweep has come to before add anything.
 void sweep_there_from_zero(CellLevel& level) {
     for (const auto& runs : level.colours)
         for_each_run(level, runs, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) relax_row(level, i, RowSum().add(level.earlier.row(i), level.x).value());
+            for (std::size_t i = begin; i < end; ++i)
+                relax_row(level, i, RowSum().add(level.earlier.row(i), level.x).value());
         });
 }
 
 /// And all that this leaves is what the neighbours add that it came to afterwards.
 void compute_residual_of_sweep(CellLevel& level) {
-    for_each_index(level.size(), [&](std::size_t i) { level.r[i] = -RowSum().add(level.later.row(i), level.x).value(); });
+    for_each_index(level.size(),
+                   [&](std::size_t i) { level.r[i] = -RowSum().add(level.later.row(i), level.x).value(); });
 }
 
 void sweep_there(CellLevel& level) {
     for (const auto& runs : level.colours)
         for_each_run(level, runs, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                relax_row(level, i, RowSum().add(level.later.row(i), level.x).add(level.earlier.row(i), level.x).value());
+                relax_row(level, i,
+                          RowSum().add(level.later.row(i), level.x).add(level.earlier.row(i), level.x).value());
         });
 }
 
@@ -225,7 +231,9 @@ void sweep_back(CellLevel& level) {
     for (auto runs = level.colours.rbegin(); runs != level.colours.rend(); ++runs)
         for_each_run(level, *runs, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = end; i-- > begin;)
-                relax_row(level, i, RowSum().add_back(level.earlier.row(i), level.x).add_back(level.later.row(i), level.x).value());
+                relax_row(
+                    level, i,
+                    RowSum().add_back(level.earlier.row(i), level.x).add_back(level.later.row(i), level.x).value());
         });
 }
 
@@ -364,9 +372,11 @@ void CellMatrix::solve_coarse(std::size_t n) {
     // The second one orthogonal to the first.
     const double along = product(second_answer, answer) / square;
     const double rest = product(second_answer, second_answer) - along * along * square;
-    const double second_share = rest > 1e-12 * square ? product(second_answer, level.b) / rest : 0;   // b is orthogonal to the first
+    const double second_share =
+        rest > 1e-12 * square ? product(second_answer, level.b) / rest : 0;   // b is orthogonal to the first
     for_each_index(level.size(), [&](std::size_t i) {
-        level.x[i] = broadcast(float(share - second_share * along)) * first[i] + broadcast(float(second_share)) * level.x[i];
+        level.x[i] =
+            broadcast(float(share - second_share * along)) * first[i] + broadcast(float(second_share)) * level.x[i];
     });
 }
 

@@ -22,8 +22,9 @@ double product(const CellVectors& a, const CellVectors& b);
 ///         velocity  m_diagonal u_i + gradient p_i     + sum_j (m_ij u_j + a_ij p_j)
 struct CellMatrixRow {
     float p_diagonal = 0, m_diagonal = 0;
-    float per_momentum = 0, per_pressure = 0;   // what the row is solved by for its own four unknowns: make_coarse sets them
-    CellVector gradient{}, divergence{};        // their first number is zero
+    float per_momentum = 0,
+          per_pressure = 0;                // what the row is solved by for its own four unknowns: make_coarse sets them
+    CellVector gradient{}, divergence{};   // their first number is zero
 };
 
 /// What a neighbour adds to a row.
@@ -37,10 +38,13 @@ struct CellMatrixEntry {
 struct CellTriangle {
     std::vector<std::uint32_t> start;   // rows, and one more
     std::vector<CellMatrixEntry> entry;
-    std::vector<std::uint16_t> parent;   // the coarser entry, as it is counted in its row; `inside` if both cells have one parent
+    std::vector<std::uint16_t>
+        parent;   // the coarser entry, as it is counted in its row; `inside` if both cells have one parent
 
     static constexpr std::uint16_t inside = 0xffff;
-    std::span<const CellMatrixEntry> row(std::size_t i) const { return {entry.data() + start[i], entry.data() + start[i + 1]}; }
+    std::span<const CellMatrixEntry> row(std::size_t i) const {
+        return {entry.data() + start[i], entry.data() + start[i + 1]};
+    }
 };
 
 struct CellLevel {
@@ -69,7 +73,8 @@ struct CellLevel {
 /// The entries of a row in the order of its columns.
 class CellRow {
 public:
-    CellRow(CellLevel& level, std::size_t i) : level_(level), row_(i), earlier_(level.earlier.start[i]), later_(level.later.start[i]) {}
+    CellRow(CellLevel& level, std::size_t i)
+        : level_(level), row_(i), earlier_(level.earlier.start[i]), later_(level.later.start[i]) {}
     CellMatrixEntry& next(std::size_t column) {
         return level_.is_earlier(column, row_) ? level_.earlier.entry[earlier_++] : level_.later.entry[later_++];
     }

@@ -40,8 +40,10 @@ void CellMixing::learn(const CellVectors& change) {
 }
 
 void CellMixing::mix(CellVectors& change, double lacking) {
-    if (lacking < gain * least_) least_ = lacking, in_vain_ = 0;
-    else if (++in_vain_ == patience) forget();
+    if (lacking < gain * least_)
+        least_ = lacking, in_vain_ = 0;
+    else if (++in_vain_ == patience)
+        forget();
     if (!proposed_.empty()) learn(change);
     proposed_ = change;
     const double square = product(change, change);

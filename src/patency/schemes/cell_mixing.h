@@ -23,14 +23,14 @@ public:
 
 private:
     struct Pair {
-        CellVectors answer, both;       // to a change: what the proposal changed by after it; the change and its answer
+        CellVectors answer, both;      // to a change: what the proposal changed by after it; the change and its answer
         std::deque<double> products;   // of the answer with those of the older pairs and itself
     };
     void learn(const CellVectors& change);
     void forget_oldest();
 
     std::size_t depth_;
-    std::deque<Pair> pairs_;         // the oldest first
+    std::deque<Pair> pairs_;        // the oldest first
     CellVectors proposed_, made_;   // in the last step
     double least_ = INFINITY;
     int in_vain_ = 0;

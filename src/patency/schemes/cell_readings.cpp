@@ -79,7 +79,8 @@ CellFields CellBalance::fields_at(std::span<const Vec3> places) const {
             pressure += weight * state_[i].p_at(0.5 * d), slope += weight * state_[i].grad_p;
             velocity += weight * state_[i].u_at(0.5 * d), gradient += weight * state_[i].grad_u;
         }
-        fields.pressure[n] = level_ + fluid_.density * speed_ * speed_ / sum * (pressure + 0.5 / sum * dot(slope, lever));
+        fields.pressure[n] =
+            level_ + fluid_.density * speed_ * speed_ / sum * (pressure + 0.5 / sum * dot(slope, lever));
         fields.velocity[n] = speed_ / sum * (velocity + 0.5 / sum * (gradient * lever));
     });
     return fields;

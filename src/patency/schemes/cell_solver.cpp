@@ -20,7 +20,8 @@ constexpr int most_cures = 6;
 constexpr double unsteady = 0.05, first_limit = 100;   // of the forces lacked; of the steps until then
 constexpr double runaway = 100;   // growth of the residual over the least so far that is no detour any more
 
-constexpr std::size_t mixed_steps = 30;   // fewer do not quieten the jet behind a lesion of 0.6 mm (a real left coronary tree at hyperaemia)
+constexpr std::size_t mixed_steps =
+    30;   // fewer do not quieten the jet behind a lesion of 0.6 mm (a real left coronary tree at hyperaemia)
 constexpr double rising = 1.5, shrink = 0.5;   // where more is lacked by that than a step ago, the next step is shorter
 
 /// Of the pressure's own term in a step. With little of it a step is nearly Newton's, which finds the pressure behind a
@@ -33,10 +34,11 @@ double pressure_share(double momentum_residual) {
 /// Tells a jet that goes on swinging behind a lesion, where no steady flow is or none can be found, from a solution on its way.
 class StallWatch {
 public:
-    static constexpr std::size_t window = 60;         // steps
-    static constexpr double progress = 0.5;           // of the residual in a window, or nothing is gained
-    static constexpr double standing = 5e-3;          // swing of the openings in a window that is none, as numerics.convergence has it
-    static constexpr double bearable = 0.05;          // swing around means that are still an answer, marked
+    static constexpr std::size_t window = 60;   // steps
+    static constexpr double progress = 0.5;     // of the residual in a window, or nothing is gained
+    static constexpr double standing =
+        5e-3;   // swing of the openings in a window that is none, as numerics.convergence has it
+    static constexpr double bearable = 0.05;   // swing around means that are still an answer, marked
 
     void add(double residual, const std::vector<CellEndState>& ends) {
         residuals_.push_back(residual);
@@ -46,7 +48,8 @@ public:
     bool is_stalled() const {
         if (residuals_.size() < 2 * window) return false;
         const auto least = [&](std::size_t back) {
-            return *std::min_element(residuals_.end() - std::ptrdiff_t(back + window), residuals_.end() - std::ptrdiff_t(back));
+            return *std::min_element(residuals_.end() - std::ptrdiff_t(back + window),
+                                     residuals_.end() - std::ptrdiff_t(back));
         };
         return least(0) > progress * least(window);
     }
@@ -55,13 +58,14 @@ public:
         for (std::size_t k = 0; k < ends_.back().size(); ++k) {
             low = std::min(low, ends_.back()[k].pressure), high = std::max(high, ends_.back()[k].pressure);
             through += 0.5 * std::abs(ends_.back()[k].flow);
-            const auto range = [&](double CellEndState::* value) {
+            const auto range = [&](double CellEndState::*value) {
                 double least = INFINITY, most = -INFINITY;
                 for (std::size_t n = ends_.size() - window; n < ends_.size(); ++n)
                     least = std::min(least, ends_[n][k].*value), most = std::max(most, ends_[n][k].*value);
                 return most - least;
             };
-            flow = std::max(flow, range(&CellEndState::flow)), pressure = std::max(pressure, range(&CellEndState::pressure));
+            flow = std::max(flow, range(&CellEndState::flow)),
+            pressure = std::max(pressure, range(&CellEndState::pressure));
         }
         return std::max(flow / through, high > low ? pressure / (high - low) : 0.0);
     }
@@ -136,7 +140,8 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
                      worst = std::max(volume, momentum);
         const bool is_lost = !std::isfinite(worst);
         if (is_lost && best.pressure.empty()) throw fail("lost its numbers");
-        if (step >= settings.least_iterations && worst < settings.tolerance && is_balanced(balance.end_states(), settings.imbalance_share * settings.tolerance)) {
+        if (step >= settings.least_iterations && worst < settings.tolerance &&
+            is_balanced(balance.end_states(), settings.imbalance_share * settings.tolerance)) {
             solution.is_converged = true;
             solution.history.push_back({volume, momentum, 0, 0, courant});
             return solution;
@@ -152,7 +157,8 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
         }
         if (step > 0 && worst < least) least = worst, best = balance.fields(), best_ends = balance.end_memory();
         watch.add(worst, balance.end_states());
-        if (watch.is_stalled() && limit > first_limit) {   // long steps by a matrix of first order may go round in circles
+        if (watch.is_stalled() &&
+            limit > first_limit) {   // long steps by a matrix of first order may go round in circles
             limit = first_limit, courant = std::min(courant, limit);
             watch = {};
         }
@@ -164,7 +170,8 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
             return solution;
         }
         const bool is_late = step + int(StallWatch::window) > settings.most_iterations;   // the last chance
-        if (mean.count() > 0 || (watch.is_stalled() && (watch.is_standing() || (is_late && watch.is_bearable())))) mean.add(balance.fields());
+        if (mean.count() > 0 || (watch.is_stalled() && (watch.is_standing() || (is_late && watch.is_bearable()))))
+            mean.add(balance.fields());
         if (mean.count() >= int(StallWatch::window) && watch.is_bearable()) {
             balance.set_fields(mean.mean());
             balance.compute_residual(kappa);
@@ -173,7 +180,8 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
             return solution;
         }
         balance.fill({courant, pressure_share(momentum)}, matrix, right);
-        const KrylovResult linear = solve_by_krylov(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
+        const KrylovResult linear =
+            solve_by_krylov(multiply, precondition, right, change, settings.krylov_steps, settings.krylov_tolerance);
         solution.history.push_back({volume, momentum, linear.residual, linear.steps, courant});
         solution.linear_steps += linear.steps;
         if (!(linear.residual < stagnant)) {
@@ -184,8 +192,10 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
             mixing.forget();
             continue;
         }
-        if (momentum < settings.mixes_below) mixing.mix(change, worst);
-        else mixing.forget();
+        if (momentum < settings.mixes_below)
+            mixing.mix(change, worst);
+        else
+            mixing.forget();
         balance.apply(change);
         if (settings.ends_may_turn) balance.turn_ends();
         const double change_of_step = worst > rising * before ? shrink : settings.growth;
@@ -204,7 +214,8 @@ void append(CellSolution& solution, const CellSolution& before) {
 /// By the sharp transport, from the balance's fields. False where it finds no rest that would be an answer: then the fields are again
 /// those of the start, and `solution` is only what was spent.
 bool solve_sharply(CellBalance& balance, CellMatrix& matrix, CellSolverSettings settings, CellSolution& solution) {
-    constexpr double enough = 1e-5;   // of what cells lack: means of the sharp one are nearer to the truth than the damped one's rest
+    constexpr double enough =
+        1e-5;   // of what cells lack: means of the sharp one are nearer to the truth than the damped one's rest
     settings.most_iterations = std::min(settings.most_iterations, settings.most_sharp_iterations);
     const CellFields start = balance.fields();
     const std::vector<double> ends = balance.end_memory();
@@ -225,7 +236,9 @@ bool solve_sharply(CellBalance& balance, CellMatrix& matrix, CellSolverSettings 
 
 CellSolution solve_instant(CellBalance& balance, CellMatrix& matrix, const CellSolverSettings& settings) {
     CellSolution solution = iterate(balance, matrix, settings);
-    if (solution.is_settled) throw DivergedError("an instant of the flow on cells only stands at its openings, and the cells are not in balance");
+    if (solution.is_settled)
+        throw DivergedError(
+            "an instant of the flow on cells only stands at its openings, and the cells are not in balance");
     return solution;
 }
 

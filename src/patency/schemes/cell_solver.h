@@ -11,16 +11,20 @@ namespace patency {
 
 struct CellSolverSettings {
     double tolerance = 1e-6;   ///< of the sums of volume and momentum that cells lack
-    double imbalance_share = 0.3;   ///< of the tolerance, for what the openings let in over all that passes: results are told by it
+    double imbalance_share =
+        0.3;   ///< of the tolerance, for what the openings let in over all that passes: results are told by it
     int least_iterations = 0, most_iterations = 400, most_sharp_iterations = 400;   ///< these with the sharp transport
-    bool starts_sharp = false;   ///< the fields are those that coarser cells found with the sharp transport: it is tried first
+    bool starts_sharp =
+        false;   ///< the fields are those that coarser cells found with the sharp transport: it is tried first
     double first_courant = 5, courant = 1000, growth = 1.4;
     double kappa = 0.5;   ///< of the artificial sound speed: steady answers hardly depend on it
     int krylov_steps = 40;
     double krylov_tolerance = 0.1;
-    double mixes_below = 0.2;   ///< of the forces that cells lack: from then on the last steps are mixed   THEORY.md (18.18)
-    bool gives_up = false;    ///< a flow that stands without rest or takes too many steps is left as it is, for whoever follows it in time
-    bool ends_may_turn = true;   ///< between a pressure and what enters, in every step
+    double mixes_below =
+        0.2;   ///< of the forces that cells lack: from then on the last steps are mixed   THEORY.md (18.18)
+    bool gives_up =
+        false;   ///< a flow that stands without rest or takes too many steps is left as it is, for whoever follows it in time
+    bool ends_may_turn = true;                ///< between a pressure and what enters, in every step
     std::function<bool()> interrupted = {};   ///< asked after every step; true ends the run
 };
 
@@ -36,8 +40,9 @@ struct CellSolution {
     /// over the last steps.
     bool is_settled = false;
     bool is_given_up = false;   ///< the fields are those that lacked least
-    bool is_damped = false;      ///< by the damped transport: the sharp one did not come to rest
-    double swing = 0;            ///< of what stands still: largest change of a flow over all that flows, of a pressure over their range
+    bool is_damped = false;     ///< by the damped transport: the sharp one did not come to rest
+    double swing =
+        0;   ///< of what stands still: largest change of a flow over all that flows, of a pressure over their range
     std::vector<CellIteration> history;
     int linear_steps = 0;
 };

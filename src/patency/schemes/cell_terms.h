@@ -55,7 +55,8 @@ struct Face {
 
 /// Mean values carry mass and pressure; what the pressures on both sides differ by stabilises the flow, and vanishes for a
 /// linear pressure. Swapping a and b flips the sign.                                            THEORY.md (18.4), (18.5)
-inline Flux through_face(const Face& face, const CellState& a, const CellState& b, const Transport& transport, bool is_newtonian) {
+inline Flux through_face(const Face& face, const CellState& a, const CellState& b, const Transport& transport,
+                         bool is_newtonian) {
     const Vec3 off = 0.5 * (face.from_a + face.from_b);   // from the middle of the points to the centroid
     const Mat3 grad_u = 0.5 * (a.grad_u + b.grad_u);
     const Vec3 mean_u = 0.5 * (a.u + b.u) + grad_u * off;
@@ -65,7 +66,8 @@ inline Flux through_face(const Face& face, const CellState& a, const CellState& 
     const Vec3 upstream = volume > 0 ? a.u_at(face.from_a) : b.u_at(face.from_b);
     const Vec3 carried = mean_u + transport.upwinding * (upstream - mean_u);
     const double nu = 0.5 * (a.nu + b.nu);
-    Vec3 momentum = volume * carried + carried_by_spread(face.size, (1 / face.size) * face.area, grad_u, transport.second_moment) +
+    Vec3 momentum = volume * carried +
+                    carried_by_spread(face.size, (1 / face.size) * face.area, grad_u, transport.second_moment) +
                     mean_p * face.area - nu * face.conductance * (b.u - a.u);
     if (!is_newtonian) momentum -= nu * (transpose(grad_u) * face.area);
     return {volume, momentum};
@@ -88,8 +90,8 @@ inline Flux into_slip(const CellState& cell, const Vec3& area, const Vec3& d) { 
 inline Flux through_imposed(const CellState& cell, const Vec3& area, const Vec3& d, double distance, const Vec3& u,
                             const Mat3& grad_u, const Transport& transport) {
     const double volume = dot(u, area), size = norm(area);
-    return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u, transport.second_moment) + cell.p_at(d) * area -
-                        cell.nu * size / distance * (u - cell.u)};
+    return {volume, volume * u + carried_by_spread(size, (1 / size) * area, grad_u, transport.second_moment) +
+                        cell.p_at(d) * area - cell.nu * size / distance * (u - cell.u)};
 }
 /// The cell's velocity where an opening's patch lies along the opening, by at most half of itself more or less: in a cell whose
 /// neighbours lie askew the slope alone may say anything. Across the opening it is the cell's own: blood that comes back would be sped
@@ -106,11 +108,12 @@ inline double free_volume(const CellState& cell, const Vec3& area, const Vec3& d
     return dot(velocity_along(cell, area, d), area) + norm(area) / cell.c * cell.p_at(d);
 }
 /// What goes out carries the cell's velocity; what comes in brings `entering`: with its own again an inflow would feed itself.
-inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure,
-                         const Vec3& entering, const Transport& transport) {
+inline Flux through_open(const CellState& cell, const Vec3& area, const Vec3& d, double pressure, const Vec3& entering,
+                         const Transport& transport) {
     const double volume = free_volume(cell, area, d) - norm(area) / cell.c * pressure;
     const double size = norm(area);
-    const Vec3 spread = volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u, transport.second_moment);
+    const Vec3 spread =
+        volume < 0 ? Vec3{} : carried_by_spread(size, (1 / size) * area, cell.grad_u, transport.second_moment);
     return {volume, volume * (volume < 0 ? entering : velocity_along(cell, area, d)) + spread + pressure * area};
 }
 

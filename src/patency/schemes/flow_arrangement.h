@@ -51,7 +51,9 @@ public:
     const AlignedVector<Quad<T>>& geometry() const { return geometry_; }             ///< (x, distance to the wall)
     const AlignedVector<Quad<T>>& wall_geometry() const { return wall_geometry_; }   ///< (x, depth)
     // What acoustic steps need, frozen over an advection step: each reads what it needs and nothing else, for memory is slow.
-    const Sym<T>& blood_correction(std::size_t i) const { return blood_corrections_[i]; }   ///< over blood alone, per metre
+    const Sym<T>& blood_correction(std::size_t i) const {
+        return blood_corrections_[i];
+    }   ///< over blood alone, per metre
     const Closure<T>& closure(std::size_t i) const { return closures_[i]; }
     const Vec<T>& radial_moment(std::size_t i) const { return radial_moments_[i]; }   ///< sum w r d over blood
     /// The matrix of the Laplacian's weight, (xx, yy, zz, .) and (xy, xz, yz, .).                    THEORY.md (3.6)

@@ -106,7 +106,9 @@ private:
     }
 
     /// Near a wall the mirror is of first order, and in a buffer the velocity is told.                   THEORY.md (3.8)
-    bool sees_curvature(std::size_t i) const { return arrangement_.wall_of(i) == no_wall && domain_.fluid.opening[i] == 0; }
+    bool sees_curvature(std::size_t i) const {
+        return arrangement_.wall_of(i) == no_wall && domain_.fluid.opening[i] == 0;
+    }
 
     /// Of a pair the product counts: the speed of the upwind flux between the two [m/s]. None at the wall, where gradients are of
     /// first order; all of it beyond the kernel's reach.                                              THEORY.md (4.9)
@@ -163,8 +165,10 @@ private:
                 records_of(geometry, velocity_, row_x, row_y, row_z), term,
                 [&](std::uint32_t i, const auto& sum) { apply_viscosity(i, sum, upwind); });
         };
-        if (material_.viscosity_at) sum_over_blood(terms::Viscosity<true>{});
-        else sum_over_blood(terms::Viscosity<false>{});
+        if (material_.viscosity_at)
+            sum_over_blood(terms::Viscosity<true>{});
+        else
+            sum_over_blood(terms::Viscosity<false>{});
     }
 
     template <std::size_t sums>
@@ -335,11 +339,11 @@ private:
     FlowNumerics numerics_;
     WendlandC2 kernel_;
     Arrangement<T> arrangement_;
-    AlignedVector<Quad<T>> pressure_, velocity_;       // records: (x, p), (v, mu) and from the first kick on (v, p)
-    std::array<AlignedVector<Quad<T>>, 3> gradient_;   // records: rows of the velocity gradient, per unit of the loop
+    AlignedVector<Quad<T>> pressure_, velocity_;         // records: (x, p), (v, mu) and from the first kick on (v, p)
+    std::array<AlignedVector<Quad<T>>, 3> gradient_;     // records: rows of the velocity gradient, per unit of the loop
     std::array<AlignedVector<Quad<T>>, 2> correction_;   // records: of the divergence: (xx, yy, zz, .), (xy, xz, yz, .)
-    std::vector<std::array<T, 5>> wall_viscosity_;     // by numbers of particles near the wall
-    std::vector<Vec3> surface_velocity_;               // of the wall, by the same numbers
+    std::vector<std::array<T, 5>> wall_viscosity_;       // by numbers of particles near the wall
+    std::vector<Vec3> surface_velocity_;                 // of the wall, by the same numbers
     std::vector<Vec3> moved_;
     std::vector<double> divergence_;   // of the velocity, as the sums report it [1/s]
     // Over the acoustic steps: sum w r d [m], and what the curvature of the velocity adds to its divergence [1/s].

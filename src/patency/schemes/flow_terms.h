@@ -13,7 +13,8 @@ namespace patency::terms {
 struct PressureGradient {
     static constexpr int own_extras = 0, extras = 0, sums = 3;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>& i, const Sample<P, 0>& j, std::array<P, 3>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>& i, const Sample<P, 0>& j,
+                                   std::array<P, 3>& sum) const {
         const P w = pair.t * pair.t * pair.t * (i.value - j.value);
         sum[0] = fma(w, pair.d.x, sum[0]);
         sum[1] = fma(w, pair.d.y, sum[1]);
@@ -26,7 +27,8 @@ struct PressureGradient {
 struct Compression {
     static constexpr int own_extras = 1, extras = 1, sums = 7;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 7>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j,
+                                   std::array<P, 7>& sum) const {
         const P w = pair.t * pair.t * pair.t;
         const P wx = w * pair.d.x, wy = w * pair.d.y, wz = w * pair.d.z;
         const P u = i.extra[0].a - j.extra[0].a, v = i.extra[0].b - j.extra[0].b, q = i.extra[0].c - j.extra[0].c;
@@ -44,7 +46,8 @@ struct Compression {
 struct Crowding {
     static constexpr int own_extras = 0, extras = 0, sums = 3;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&, std::array<P, 3>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&,
+                                   std::array<P, 3>& sum) const {
         const P w = pair.t * pair.t * pair.t;
         sum[0] = fma(w, pair.d.x, sum[0]);
         sum[1] = fma(w, pair.d.y, sum[1]);
@@ -78,7 +81,8 @@ inline constexpr int moments = 27;
 struct Moments {
     static constexpr int own_extras = 0, extras = 0, sums = moments;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&,
+                                   std::array<P, sums>& sum) const {
         add_moments(pair, pair.t * pair.t * pair.t, sum);
     }
 };
@@ -90,16 +94,19 @@ struct Moments {
 struct WallMoments {
     static constexpr int own_extras = 0, extras = 2, sums = moments + 11;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>& i, const Sample<P, 2>& j, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>& i, const Sample<P, 2>& j,
+                                   std::array<P, sums>& sum) const {
         const P w = pair.t * pair.t * pair.t;
         add_moments(pair, w, sum);
         const P mirror = w * fma(j.value, P(1) / i.value, P(1));
-        sum[27] = fma(mirror, pair.d.x, sum[27]), sum[28] = fma(mirror, pair.d.y, sum[28]), sum[29] = fma(mirror, pair.d.z, sum[29]);
+        sum[27] = fma(mirror, pair.d.x, sum[27]), sum[28] = fma(mirror, pair.d.y, sum[28]),
+        sum[29] = fma(mirror, pair.d.z, sum[29]);
         sum[30] += w;
         const Quads<P>&normal = j.extra[0], &velocity = j.extra[1];
         sum[31] = fma(w, normal.a, sum[31]), sum[32] = fma(w, normal.b, sum[32]), sum[33] = fma(w, normal.c, sum[33]);
         sum[34] = fma(w, normal.d, sum[34]);
-        sum[35] = fma(w, velocity.a, sum[35]), sum[36] = fma(w, velocity.b, sum[36]), sum[37] = fma(w, velocity.c, sum[37]);
+        sum[35] = fma(w, velocity.a, sum[35]), sum[36] = fma(w, velocity.b, sum[36]),
+        sum[37] = fma(w, velocity.c, sum[37]);
     }
 };
 
@@ -125,17 +132,21 @@ template <bool thinning>
 struct Viscosity {
     static constexpr int own_extras = 8, extras = 4, sums = thinning ? 22 : 19;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 8>& i, const Sample<P, 4>& j, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 8>& i, const Sample<P, 4>& j,
+                                   std::array<P, sums>& sum) const {
         const Vec<P>& d = pair.d;
         const Quads<P>&vi = i.extra[0], &vj = j.extra[0];
         const P w = pair.t * pair.t * pair.t;
         const P u = vi.a - vj.a, v = vi.b - vj.b, q = vi.c - vj.c;
         const P weight = laplacian_weight(pair, i.extra[4], i.extra[5]);
         P friction = weight;
-        if constexpr (thinning) friction *= P(2) * vi.d * vj.d / (vi.d + vj.d);   // one behind the other, for one stress
+        if constexpr (thinning)
+            friction *= P(2) * vi.d * vj.d / (vi.d + vj.d);   // one behind the other, for one stress
         sum[9] = fma(-friction, u, sum[9]), sum[10] = fma(-friction, v, sum[10]), sum[11] = fma(-friction, q, sum[11]);
         sum[12] = fma(weight, d.x, sum[12]), sum[13] = fma(weight, d.y, sum[13]), sum[14] = fma(weight, d.z, sum[14]);
-        const auto half_way = [&](const Quads<P>& row) { return P(0.5f) * fma(row.a, d.x, fma(row.b, d.y, row.c * d.z)); };
+        const auto half_way = [&](const Quads<P>& row) {
+            return P(0.5f) * fma(row.a, d.x, fma(row.b, d.y, row.c * d.z));
+        };
         const P ix = half_way(i.extra[1]), iy = half_way(i.extra[2]), iz = half_way(i.extra[3]);
         const P jx = half_way(j.extra[1]), jy = half_way(j.extra[2]), jz = half_way(j.extra[3]);
         const P wr = w * pair.r * (i.extra[1].d * j.extra[1].d);
@@ -166,7 +177,8 @@ struct Viscosity {
 struct WallViscosity {
     static constexpr int own_extras = 2, extras = 0, sums = 5;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 2>& i, const Sample<P, 0>& j, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 2>& i, const Sample<P, 0>& j,
+                                   std::array<P, sums>& sum) const {
         const P w = laplacian_weight(pair, i.extra[0], i.extra[1]);
         sum[0] = fma(w, fma(j.value, P(1) / i.value, P(1)), sum[0]);
         sum[1] = fma(w * j.value, P(0.5f) * (j.value + i.value), sum[1]);
@@ -174,4 +186,4 @@ struct WallViscosity {
     }
 };
 
-}  // namespace patency::terms
+}   // namespace patency::terms

@@ -11,7 +11,7 @@ namespace patency {
 /// Particle volumes are volumes at rest: a particle's mass is rho_0 times it. A start under pressure is quiet if the
 /// volumes are the actual ones times rho(p)/rho_0, because the density is summed from the masses.
 /// Throws DeckError where double precision is wanted in a periodic box.
-std::unique_ptr<FlowScheme> make_paper_scheme(Precision precision, const FlowDomain& domain, const FluidMaterial& material,
-                                              const FlowNumerics& numerics);
+std::unique_ptr<FlowScheme> make_paper_scheme(Precision precision, const FlowDomain& domain,
+                                              const FluidMaterial& material, const FlowNumerics& numerics);
 
-}  // namespace patency
+}   // namespace patency

@@ -24,7 +24,8 @@ PATENCY_INLINE P shape_of_kernel(const Pair<P>& pair) {
 struct NumberDensity {
     static constexpr int own_extras = 0, extras = 0, sums = 1;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&, std::array<P, 1>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>&,
+                                   std::array<P, 1>& sum) const {
         // A padding pair, of a particle with itself at r = 0, must not count.
         const P present = min(pair.r * P(1e30f), P(1));
         sum[0] = fma(present, shape_of_kernel(pair), sum[0]);
@@ -39,7 +40,8 @@ template <Over over>
 struct SlowSums {
     static constexpr int own_extras = 1, extras = 1, sums = 21;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 21>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j,
+                                   std::array<P, 21>& sum) const {
         const Quads<P>&vi = i.extra[0], &vj = j.extra[0];
         const Vec<P>& d = pair.d;
         const P w = vj.d * (pair.t * pair.t * pair.t);
@@ -76,7 +78,8 @@ template <class T>
 struct RiemannForce : RiemannPair<T> {
     static constexpr int own_extras = 1, extras = 1, sums = 3;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 3>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j,
+                                   std::array<P, 3>& sum) const {
         const P star = star_pressure(this->side(pair, i), this->side(pair, j), P(this->sound_speed));
         const P w = j.extra[0].d * (pair.t * pair.t * pair.t) * (star + star);
         sum[0] = fma(w, pair.d.x, sum[0]);
@@ -90,7 +93,8 @@ template <class T>
 struct RiemannCompression : RiemannPair<T> {
     static constexpr int own_extras = 1, extras = 1, sums = 1;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j, std::array<P, 1>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 1>& i, const Sample<P, 1>& j,
+                                   std::array<P, 1>& sum) const {
         const RiemannSide<P> left = this->side(pair, i), right = this->side(pair, j);
         const P jump = star_velocity(left, right, P(this->sound_speed)) - left.velocity;
         sum[0] = fma(j.extra[0].d * (pair.t * pair.t * pair.t) * pair.r, jump + jump, sum[0]);
@@ -103,12 +107,14 @@ struct WallPressure {
     T density, sound_speed;
     static constexpr int own_extras = 0, extras = 0, sums = 5;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>& j, std::array<P, 5>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 0>& j,
+                                   std::array<P, 5>& sum) const {
         const P w = shape_of_kernel(pair);
         const P heavy = w * density_at_pressure(j.value, P(density), P(sound_speed));
         sum[0] += w;
         sum[1] = fma(w, j.value, sum[1]);
-        sum[2] = fma(heavy, pair.d.x, sum[2]), sum[3] = fma(heavy, pair.d.y, sum[3]), sum[4] = fma(heavy, pair.d.z, sum[4]);
+        sum[2] = fma(heavy, pair.d.x, sum[2]), sum[3] = fma(heavy, pair.d.y, sum[3]),
+        sum[4] = fma(heavy, pair.d.z, sum[4]);
     }
 };
 
@@ -116,7 +122,8 @@ struct WallPressure {
 struct WallVelocity {
     static constexpr int own_extras = 0, extras = 1, sums = 4;
     template <class P>
-    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 1>& j, std::array<P, 4>& sum) const {
+    PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>&, const Sample<P, 1>& j,
+                                   std::array<P, 4>& sum) const {
         const P w = shape_of_kernel(pair);
         const Quads<P>& v = j.extra[0];
         sum[0] += w;
@@ -124,4 +131,4 @@ struct WallVelocity {
     }
 };
 
-}  // namespace patency::terms
+}   // namespace patency::terms

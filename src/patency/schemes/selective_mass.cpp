@@ -42,11 +42,14 @@ Graph neighbours_of(const SolidParticles& particles, double within) {
 /// Particles on ways of less than `reach` from one, and the ways' lengths.
 class WaysFrom {
 public:
-    WaysFrom(const SolidParticles& particles, const Graph& graph) : particles_(particles), graph_(graph), way_(particles.size(), unreached) {}
+    WaysFrom(const SolidParticles& particles, const Graph& graph)
+        : particles_(particles), graph_(graph), way_(particles.size(), unreached) {}
 
     const std::vector<std::pair<std::uint32_t, double>>& find(std::uint32_t seed, double reach) {
         found_.clear();
-        std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>, std::greater<>> open;
+        std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>,
+                            std::greater<>>
+            open;
         std::vector<std::uint32_t> visited{seed};
         way_[seed] = 0, open.push({0, seed});
         while (!open.empty()) {

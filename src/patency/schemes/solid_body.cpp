@@ -11,7 +11,9 @@ namespace patency {
 namespace {
 
 /// What stands only on the axes that are held, or only on the others.
-Vec3 masked(const Vec3& v, const std::array<bool, 3>& axes) { return {axes[0] ? v.x : 0, axes[1] ? v.y : 0, axes[2] ? v.z : 0}; }
+Vec3 masked(const Vec3& v, const std::array<bool, 3>& axes) {
+    return {axes[0] ? v.x : 0, axes[1] ? v.y : 0, axes[2] ? v.z : 0};
+}
 
 Vec3 displacement_of(const Constraint& c, const Vec3& reference, double time) {
     return c.displacement ? c.displacement(reference, time) : Vec3{};
@@ -28,14 +30,17 @@ double SolidBody::stable_step() const {
         const Mat3 F = deformation(i);
         const double modulus = std::visit(
             [&](const auto& law) {
-                if constexpr (std::is_same_v<std::decay_t<decltype(law)>, FibreArtery>) return law.wave_modulus(F, fibres_of(p, i));
-                else return law.wave_modulus(F);
+                if constexpr (std::is_same_v<std::decay_t<decltype(law)>, FibreArtery>)
+                    return law.wave_modulus(F, fibres_of(p, i));
+                else
+                    return law.wave_modulus(F);
             },
             m.law);
         return modulus / m.density;
     });
     const double h = numerics_.smoothing_ratio * numerics_.spacing;
-    const double gain = (selective_ ? selective_->step_gain() : 1.0) * (numerics_.second_order ? second_order_share : 1.0);
+    const double gain =
+        (selective_ ? selective_->step_gain() : 1.0) * (numerics_.second_order ? second_order_share : 1.0);
     return gain * numerics_.cfl * h / (std::sqrt(fastest) * (1 + numerics_.viscosity));
 }
 
@@ -74,7 +79,9 @@ SolidBody::Powers SolidBody::kick_free(double dt, double drag) {
             p.velocity[i] = after;
             return Powers{dot(p.load[i], middle), drag * p.mass[i] * dot(middle, middle)};
         },
-        [](const Powers& a, const Powers& b) { return Powers{a.load + b.load, a.drag + b.drag}; });
+        [](const Powers& a, const Powers& b) {
+            return Powers{a.load + b.load, a.drag + b.drag};
+        });
 }
 
 /// Forces push momenta, and these move the particles.                                                THEORY (20.17)
@@ -97,12 +104,15 @@ SolidBody::Powers SolidBody::kick_selectively(double dt, double drag) {
             const Vec3 middle = 0.5 * (old_velocity_[i] + p.velocity[i]);
             return Powers{dot(p.load[i], middle), drag * dot(middle_momentum_[i], middle)};
         },
-        [](const Powers& a, const Powers& b) { return Powers{a.load + b.load, a.drag + b.drag}; });
+        [](const Powers& a, const Powers& b) {
+            return Powers{a.load + b.load, a.drag + b.drag};
+        });
 }
 
 double SolidBody::kinetic() const {
     const SolidParticles& p = particles();
-    if (!momentum_.empty()) return 0.5 * sum_of(p.size(), [&](std::size_t i) { return dot(momentum_[i], p.velocity[i]); });
+    if (!momentum_.empty())
+        return 0.5 * sum_of(p.size(), [&](std::size_t i) { return dot(momentum_[i], p.velocity[i]); });
     return 0.5 * sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(p.velocity[i], p.velocity[i]); });
 }
 
@@ -131,8 +141,12 @@ double SolidBody::find_present_frequency(double dt) {
     const bool is_first = m.last_force.empty();
     if (is_first) m.last_force.assign(p.force.begin(), p.force.end());
     if (m.place.empty()) m.place.resize(p.size()), m.force.resize(p.size());
-    const double mass = 2 * kinetic(), stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(p.velocity[i], p.force[i] - m.last_force[i]); }) / dt;
-    for_each_index(p.size(), [&](std::size_t i) { m.last_force[i] = p.force[i], m.place[i] += p.position[i], m.force[i] += p.force[i]; });
+    const double mass = 2 * kinetic(), stiffness = -sum_of(p.size(), [&](std::size_t i) {
+                                           return dot(p.velocity[i], p.force[i] - m.last_force[i]);
+                                       }) / dt;
+    for_each_index(p.size(), [&](std::size_t i) {
+        m.last_force[i] = p.force[i], m.place[i] += p.position[i], m.force[i] += p.force[i];
+    });
     if (++m.steps == m.steps_of_mean) take_means(dt);
     m.most = std::max(m.most, mass);
     if (mass < share_at_rest * std::min(m.most, 2 * m.elastic)) return m.frequency;
@@ -146,7 +160,8 @@ void SolidBody::take_means(double dt) {
     for_each_index(p.size(), [&](std::size_t i) { m.place[i] *= share, m.force[i] *= share; });
     if (!m.place_before.empty()) {
         const auto way = [&](std::size_t i) { return m.place[i] - m.place_before[i]; };
-        const double stiffness = -sum_of(p.size(), [&](std::size_t i) { return dot(way(i), m.force[i] - m.force_before[i]); });
+        const double stiffness =
+            -sum_of(p.size(), [&](std::size_t i) { return dot(way(i), m.force[i] - m.force_before[i]); });
         const double mass = sum_of(p.size(), [&](std::size_t i) { return p.mass[i] * dot(way(i), way(i)); });
         m.frequency = mass > 0 && stiffness > 0 ? std::sqrt(stiffness / mass) : 0.0;
         const double wanted = m.frequency > 0 ? turn_in_mean / (m.frequency * dt) : m.steps;
@@ -165,9 +180,12 @@ Mat3 SolidBody::cauchy(std::size_t i) const {
     const Mat3 tau = std::visit(
         [&](const auto& law) {
             using Law = std::decay_t<decltype(law)>;
-            if constexpr (std::is_same_v<Law, FibreArtery>) return law.kirchhoff(F, fibres_of(p, i));
-            else if constexpr (std::is_same_v<Law, J2Plastic>) return law.stress(F, {p.inverse_plastic[i], p.plastic_strain[i]}).kirchhoff;
-            else return law.kirchhoff(F);
+            if constexpr (std::is_same_v<Law, FibreArtery>)
+                return law.kirchhoff(F, fibres_of(p, i));
+            else if constexpr (std::is_same_v<Law, J2Plastic>)
+                return law.stress(F, {p.inverse_plastic[i], p.plastic_strain[i]}).kirchhoff;
+            else
+                return law.kirchhoff(F);
         },
         material(i).law);
     return (1 / determinant(F)) * tau;
@@ -181,9 +199,12 @@ double SolidBody::elastic_energy() {
         return std::visit(
             [&](const auto& law) {
                 using Law = std::decay_t<decltype(law)>;
-                if constexpr (std::is_same_v<Law, FibreArtery>) return law.energy(F, fibres_of(p, i));
-                else if constexpr (std::is_same_v<Law, J2Plastic>) return law.energy(F, {p.inverse_plastic[i], p.plastic_strain[i]});
-                else return law.energy(F);
+                if constexpr (std::is_same_v<Law, FibreArtery>)
+                    return law.energy(F, fibres_of(p, i));
+                else if constexpr (std::is_same_v<Law, J2Plastic>)
+                    return law.energy(F, {p.inverse_plastic[i], p.plastic_strain[i]});
+                else
+                    return law.energy(F);
             },
             material(i).law);
     };
@@ -211,8 +232,19 @@ SolidEnergy SolidBody::energy() {
 
 std::vector<double> SolidBody::state() const {
     const Motion& m = motion_;
-    std::vector<double> state = {time_, yielded_, viscous_, drag_, load_work_, constraint_work_, m.frequency, m.most, m.elastic, double(m.steps), double(m.steps_of_mean)};
-    for (const std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
+    std::vector<double> state = {time_,
+                                 yielded_,
+                                 viscous_,
+                                 drag_,
+                                 load_work_,
+                                 constraint_work_,
+                                 m.frequency,
+                                 m.most,
+                                 m.elastic,
+                                 double(m.steps),
+                                 double(m.steps_of_mean)};
+    for (const std::vector<Vec3>* vectors :
+         {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
         state.push_back(double(vectors->size()));
         for (const Vec3& v : *vectors) state.insert(state.end(), {v.x, v.y, v.z});
     }
@@ -222,9 +254,12 @@ std::vector<double> SolidBody::state() const {
 void SolidBody::restore(std::span<const double> state) {
     Motion& m = motion_;
     const double* at = state.data();
-    for (double* x : {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency, &m.most, &m.elastic}) *x = *at++;
+    for (double* x :
+         {&time_, &yielded_, &viscous_, &drag_, &load_work_, &constraint_work_, &m.frequency, &m.most, &m.elastic})
+        *x = *at++;
     m.steps = int(*at++), m.steps_of_mean = int(*at++);
-    for (std::vector<Vec3>* vectors : {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
+    for (std::vector<Vec3>* vectors :
+         {&reactions_, &momentum_, &m.last_force, &m.place, &m.force, &m.place_before, &m.force_before}) {
         vectors->resize(std::size_t(*at++));
         for (Vec3& v : *vectors) v = {at[0], at[1], at[2]}, at += 3;
     }
@@ -232,7 +267,8 @@ void SolidBody::restore(std::span<const double> state) {
 
 void SolidBody::find_selective_mass() {
     if (numerics_.mass_scaling == 1) return;
-    if (!solid_.constraints.empty()) throw DeckError("a solid whose particles are heavier against their neighbours cannot be held");
+    if (!solid_.constraints.empty())
+        throw DeckError("a solid whose particles are heavier against their neighbours cannot be held");
     selective_.emplace(particles(), numerics_.spacing, numerics_.mass_scaling);
 }
 
@@ -240,7 +276,8 @@ void SolidBody::find_constrained() {
     constrained_.assign(solid_.constraints.size(), {});
     reactions_.assign(solid_.constraints.size(), Vec3{});
     for (std::size_t i = 0; i < particles().size(); ++i)
-        if (particles().constraint[i] != 0) constrained_.at(std::size_t(particles().constraint[i] - 1)).push_back(std::uint32_t(i));
+        if (particles().constraint[i] != 0)
+            constrained_.at(std::size_t(particles().constraint[i] - 1)).push_back(std::uint32_t(i));
 }
 
 }   // namespace patency

@@ -25,13 +25,15 @@ inline constexpr double second_order_share = 0.9;
 struct SolidNumerics {
     double spacing = 0;              ///< dp [m]
     double smoothing_ratio = 1.15;   ///< h / dp
-    bool second_order = false;       ///< F also beside a surface, where neighbours stand on one side; half as much work again   THEORY (20.18)
-    bool planar = false;             ///< plane strain, z = 0
-    bool across_gaps = true;         ///< whether particles are neighbours that no third one joins
-    double cfl = 0.6;                ///< of the P-wave over h
-    double hourglass = 1;            ///< stiffness against what no linear deformation explains, over the shear modulus   THEORY (20.6)
-    double mass_scaling = 1;         ///< of particles against their neighbours, not of what they do together   THEORY (20.17)
-    double viscosity = 0;            ///< alpha: pairs part or approach against alpha rho c h                 THEORY (20.9)
+    bool second_order =
+        false;   ///< F also beside a surface, where neighbours stand on one side; half as much work again   THEORY (20.18)
+    bool planar = false;       ///< plane strain, z = 0
+    bool across_gaps = true;   ///< whether particles are neighbours that no third one joins
+    double cfl = 0.6;          ///< of the P-wave over h
+    double hourglass =
+        1;   ///< stiffness against what no linear deformation explains, over the shear modulus   THEORY (20.6)
+    double mass_scaling = 1;   ///< of particles against their neighbours, not of what they do together   THEORY (20.17)
+    double viscosity = 0;      ///< alpha: pairs part or approach against alpha rho c h                 THEORY (20.9)
     Precision precision = Precision::double_precision;
     LoopKind loop = LoopKind::packed;
 
@@ -42,11 +44,11 @@ struct SolidNumerics {
 /// Where the energy of a body is, and where it came from and went since the start [J; planar: J/m].
 struct SolidEnergy {
     double kinetic = 0, elastic = 0, hourglass = 0;
-    double plastic = 0;      ///< work of flow, lost as heat
-    double yielded = 0;      ///< hourglass energy given up where the metal flows                    THEORY (20.16)
-    double viscous = 0;      ///< lost to the viscosity between particles
-    double drag = 0;         ///< lost to the drag of dynamic relaxation
-    double load_work = 0;    ///< by loads, gravity and contact among them
+    double plastic = 0;     ///< work of flow, lost as heat
+    double yielded = 0;     ///< hourglass energy given up where the metal flows                    THEORY (20.16)
+    double viscous = 0;     ///< lost to the viscosity between particles
+    double drag = 0;        ///< lost to the drag of dynamic relaxation
+    double load_work = 0;   ///< by loads, gravity and contact among them
     double constraint_work = 0;
 
     double internal() const { return elastic + hourglass + plastic; }
@@ -89,7 +91,9 @@ public:
     const Solid& solid() const { return solid_; }
     SolidParticles& particles() { return solid_.particles; }
     const SolidParticles& particles() const { return solid_.particles; }
-    const SolidMaterial& material(std::size_t i) const { return solid_.materials[std::size_t(particles().material[i])]; }
+    const SolidMaterial& material(std::size_t i) const {
+        return solid_.materials[std::size_t(particles().material[i])];
+    }
     const SolidNumerics& numerics() const { return numerics_; }
 
 protected:
@@ -121,7 +125,8 @@ private:
     std::vector<Vec3> reactions_;
     // Of the motion that is to be relaxed. A mean lasts as long as the slow mode turns by a third; what trembles goes to and fro
     // in it many times.
-    static constexpr double turn_in_mean = 0.3, share_at_rest = 1e-3;   // of the largest kinetic energy, and of the body's own elastic one
+    static constexpr double turn_in_mean = 0.3,
+                            share_at_rest = 1e-3;   // of the largest kinetic energy, and of the body's own elastic one
     static constexpr int least_steps_of_mean = 8;
     struct Motion {
         std::vector<Vec3> last_force, place, force;     // place, force: sums over the steps of this mean

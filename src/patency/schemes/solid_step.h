@@ -34,7 +34,7 @@ struct SolidPart {
 struct SolidSystem {
     std::vector<std::unique_ptr<SolidPart>> parts;
     std::vector<std::unique_ptr<Contact>> contacts;   ///< between surfaces of the parts
-    Vec3 gravity;              ///< [m/s^2]
+    Vec3 gravity;                                     ///< [m/s^2]
     bool is_relaxed = false;   ///< motion is damped away, each part at its own present frequency    THEORY (20.13)
 };
 

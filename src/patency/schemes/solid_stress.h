@@ -18,12 +18,12 @@ using SymColumns = std::array<AlignedVector<T>, 6>;
 /// What the stress of a body is made of, by particle.
 template <class T>
 struct StressInput {
-    std::array<AlignedVector<T>, 9> sums;   ///< sum w (u_i - u_j) d^T, by rows, in units of the loop
-    std::array<AlignedVector<T>, 9> around; ///< sum w ((F_j - 1) d) d^T, of a body of second order; else empty
-    SymColumns<T> correction;               ///< B, per unit of distance squared
-    AlignedVector<T> hourglass;             ///< c [Pa per unit of distance squared]
-    AlignedVector<T> share;                 ///< of the volume, in the mean of all
-    double displacement_scale = 1;          ///< the unit of displacements in that of distances
+    std::array<AlignedVector<T>, 9> sums;     ///< sum w (u_i - u_j) d^T, by rows, in units of the loop
+    std::array<AlignedVector<T>, 9> around;   ///< sum w ((F_j - 1) d) d^T, of a body of second order; else empty
+    SymColumns<T> correction;                 ///< B, per unit of distance squared
+    AlignedVector<T> hourglass;               ///< c [Pa per unit of distance squared]
+    AlignedVector<T> share;                   ///< of the volume, in the mean of all
+    double displacement_scale = 1;            ///< the unit of displacements in that of distances
 
     bool is_second_order() const { return around[0].size() > 0; }
 };
@@ -38,8 +38,7 @@ struct StressOutput {
 /// (det F <= 0, or no number), or no_particle.
 template <class T>
 std::uint32_t compute_stress(const SolidMaterial& material, const std::vector<std::uint32_t>& members,
-                             const StressInput<T>& input, SolidParticles& particles,
-                             StressOutput<T>& stress);
+                             const StressInput<T>& input, SolidParticles& particles, StressOutput<T>& stress);
 
 inline constexpr std::uint32_t no_particle = UINT32_MAX;
 

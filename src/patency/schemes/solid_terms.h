@@ -22,7 +22,8 @@ template <bool is_metal>
 struct Deformation {
     static constexpr std::size_t own_quads = 1, quads = 1, sums = is_metal ? 10 : 9;
     template <class P>
-    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>& i, const std::array<Quads<P>, 1>& j, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>& i,
+                                   const std::array<Quads<P>, 1>& j, std::array<P, sums>& sum) const {
         const Vec<P> u = difference(i[0], j[0]);
         const Vec<P>& d = pair.wd;
         sum[0] = fma(u.x, d.x, sum[0]), sum[1] = fma(u.x, d.y, sum[1]), sum[2] = fma(u.x, d.z, sum[2]);
@@ -36,12 +37,14 @@ struct Deformation {
 struct Surroundings {
     static constexpr std::size_t own_quads = 1, quads = 3, sums = 9;
     template <class P>
-    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>&, const std::array<Quads<P>, 3>& X, std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>&,
+                                   const std::array<Quads<P>, 3>& X, std::array<P, sums>& sum) const {
         const Vec<P>& wd = pair.wd;
         const P unweighted = number<P>(1) / max(pair.w, number<P>(1e-30));   // the particle itself pads its row
         for (std::size_t k = 0; k < 3; ++k) {
             const P along = unweighted * fma(X[k].a, wd.x, fma(X[k].b, wd.y, X[k].c * wd.z));
-            sum[3 * k] = fma(along, wd.x, sum[3 * k]), sum[3 * k + 1] = fma(along, wd.y, sum[3 * k + 1]), sum[3 * k + 2] = fma(along, wd.z, sum[3 * k + 2]);
+            sum[3 * k] = fma(along, wd.x, sum[3 * k]), sum[3 * k + 1] = fma(along, wd.y, sum[3 * k + 1]),
+                    sum[3 * k + 2] = fma(along, wd.z, sum[3 * k + 2]);
         }
     }
 };
@@ -50,7 +53,8 @@ struct Surroundings {
 struct Stretching {
     static constexpr std::size_t own_quads = 1, quads = 1, sums = 1;
     template <class P>
-    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>& i, const std::array<Quads<P>, 1>& j, std::array<P, 1>& sum) const {
+    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 1>& i,
+                                   const std::array<Quads<P>, 1>& j, std::array<P, 1>& sum) const {
         const Vec<P> u = difference(i[0], j[0]);
         sum[0] = fma(pair.w, dot(u, u), sum[0]);
     }
@@ -65,8 +69,8 @@ struct Force {
     double damping = 0;              ///< D of the sums
 
     template <class P>
-    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 4>& i, const std::array<Quads<P>, 4>& j,
-                                   std::array<P, sums>& sum) const {
+    PATENCY_INLINE void operator()(const FixedPair<P>& pair, const std::array<Quads<P>, 4>& i,
+                                   const std::array<Quads<P>, 4>& j, std::array<P, sums>& sum) const {
         const Vec<P>& d = pair.wd;
         const auto& [ui, xi, yi, zi] = i;
         const auto& [uj, xj, yj, zj] = j;
@@ -78,7 +82,8 @@ struct Force {
         Vec<P> f{along(xi, xj) - c * u.x, along(yi, yj) - c * u.y, along(zi, zj) - c * u.z};
         if constexpr (is_damped) {
             const P scale = number<P>(displacement_scale);
-            const Vec<P> y{fma(scale, u.x, d.x), fma(scale, u.y, d.y), fma(scale, u.z, d.z)};   // as the pair lies now, times w
+            const Vec<P> y{fma(scale, u.x, d.x), fma(scale, u.y, d.y),
+                           fma(scale, u.z, d.z)};   // as the pair lies now, times w
             const P v = (xi.d - xj.d) * y.x + (yi.d - yj.d) * y.y + (zi.d - zj.d) * y.z;
             const P y2 = max(y.x * y.x + y.y * y.y + y.z * y.z, number<P>(1e-30));   // the particle itself pads its row
             const P pull = number<P>(damping) * v / y2;

@@ -35,9 +35,11 @@ constexpr double most_ahead = 1;
 template <class T>
 class TotalLagrangianBody final : public SolidBody {
 public:
-    TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics) : SolidBody(solid, numerics), distance_unit_(numerics.spacing) {
+    TotalLagrangianBody(Solid& solid, const SolidNumerics& numerics)
+        : SolidBody(solid, numerics), distance_unit_(numerics.spacing) {
         if constexpr (sizeof(T) == 4) displacement_unit_ = numerics.spacing / displacement_quanta_per_spacing;
-        is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(), [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
+        is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(),
+                                [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
         snap_reference();
         find_pairs();
         make_records();
@@ -60,16 +62,23 @@ public:
         sum_deformation();
         std::uint32_t inside_out = no_particle;
         for (std::size_t m = 0; m < members_.size(); ++m)
-            inside_out = std::min(inside_out, compute_stress(solid_.materials[m], members_[m], input_, particles(), stress_));
+            inside_out =
+                std::min(inside_out, compute_stress(solid_.materials[m], members_[m], input_, particles(), stress_));
         if (inside_out != no_particle) report_inside_out(inside_out, time);
         if (numerics_.second_order) lead_stress_back();
         if (is_metal_) soften_hourglass();
-        if (numerics_.viscosity > 0) sum_force<true>();
-        else sum_force<false>();
+        if (numerics_.viscosity > 0)
+            sum_force<true>();
+        else
+            sum_force<false>();
     }
 
-    Mat3 deformation(std::size_t i) const override { return is_deformed_ ? deformation_gradient(input_, i) : identity<double>(); }
-    double mean_neighbours() const override { return double(pairs_.pair_count()) / double(std::max<std::size_t>(1, pairs_.size())); }
+    Mat3 deformation(std::size_t i) const override {
+        return is_deformed_ ? deformation_gradient(input_, i) : identity<double>();
+    }
+    double mean_neighbours() const override {
+        return double(pairs_.pair_count()) / double(std::max<std::size_t>(1, pairs_.size()));
+    }
 
     /// The body's, and the deformation as it was computed last: the next stable step is told by it.
     std::vector<double> state() const override {
@@ -77,7 +86,8 @@ public:
         state.insert(state.end(), {displacement_unit_, input_.displacement_scale, is_deformed_ ? 1.0 : 0.0});
         for (const auto* columns : {&input_.sums, &input_.around})
             for (const auto& column : *columns)
-                for (std::size_t i = 0; i < std::min(particles().size(), column.size()); ++i) state.push_back(double(column[i]));
+                for (std::size_t i = 0; i < std::min(particles().size(), column.size()); ++i)
+                    state.push_back(double(column[i]));
         return state;
     }
     void restore(std::span<const double> state) override {
@@ -88,7 +98,8 @@ public:
         for (auto* columns : {&input_.sums, &input_.around})
             for (auto& column : *columns)
                 for (std::size_t i = 0; i < std::min(n, column.size()); ++i) column[i] = T(*at++);
-        for (std::size_t i = 0; i < n; ++i) input_.hourglass[i] = T(hourglass_modulus(i)), softened_at_[i] = particles().plastic_strain[i];
+        for (std::size_t i = 0; i < n; ++i)
+            input_.hourglass[i] = T(hourglass_modulus(i)), softened_at_[i] = particles().plastic_strain[i];
     }
 
 private:
@@ -107,7 +118,8 @@ private:
 
     /// The spacing over a power of two, so that a lattice stays one, of which 16 bits hold the longest distance of a pair [m].
     double reference_quantum() const {
-        return numerics_.spacing / std::exp2(std::floor(std::log2(PairUnits::most * numerics_.spacing / numerics_.kernel().support())));
+        return numerics_.spacing /
+               std::exp2(std::floor(std::log2(PairUnits::most * numerics_.spacing / numerics_.kernel().support())));
     }
 
     /// Pairs are kept in whole quanta (PairUnits). With places that are whole numbers of them too, what is linear stays so to the last bit; nothing
@@ -116,7 +128,8 @@ private:
         SolidParticles& p = particles();
         const double q = reference_quantum();
         for_each_index(p.size(), [&](std::size_t i) {
-            const Vec3 x = p.reference[i], snapped{q * std::round(x.x / q), q * std::round(x.y / q), q * std::round(x.z / q)};
+            const Vec3 x = p.reference[i],
+                       snapped{q * std::round(x.x / q), q * std::round(x.y / q), q * std::round(x.z / q)};
             p.reference[i] = snapped, p.position[i] += snapped - x;
         });
     }
@@ -139,7 +152,8 @@ private:
         mean_volume_ = sum_of(p.size(), [&](std::size_t i) { return p.volume[i]; }) / double(p.size());
         const auto find = [&](std::uint32_t i, std::uint32_t j) {
             const Vec3 d = p.reference[i] - p.reference[j];
-            const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell(), t = std::max(0.0, 1 - norm(d) / support);
+            const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell(),
+                         t = std::max(0.0, 1 - norm(d) / support);
             return FoundPair{(1 / distance_unit_) * d, v * t * t * t};
         };
         const FixedRows packed = reordered(rows, order);
@@ -193,10 +207,11 @@ private:
         });
         for (std::size_t i = 0; i < p.size(); ++i)
             if (is_flat[i])
-                throw GeometryError(fmt::format("the solid is too thin for its spacing of {:.3g} m: the neighbours of the particle at "
-                                                "({:.4g}, {:.4g}, {:.4g}) m lie {}; at least three particles are needed across every part",
-                                                numerics_.spacing, p.reference[i].x, p.reference[i].y, p.reference[i].z,
-                                                numerics_.planar ? "on one line" : "in one plane"));
+                throw GeometryError(fmt::format(
+                    "the solid is too thin for its spacing of {:.3g} m: the neighbours of the particle at "
+                    "({:.4g}, {:.4g}, {:.4g}) m lie {}; at least three particles are needed across every part",
+                    numerics_.spacing, p.reference[i].x, p.reference[i].y, p.reference[i].z,
+                    numerics_.planar ? "on one line" : "in one plane"));
     }
     double dimensions() const { return numerics_.planar ? 2 : 3; }
     double mean_correction(std::size_t i) const {
@@ -206,7 +221,8 @@ private:
 
     void sort_members() {
         members_.resize(solid_.materials.size());
-        for (std::size_t i = 0; i < particles().size(); ++i) members_.at(std::size_t(particles().material[i])).push_back(std::uint32_t(i));
+        for (std::size_t i = 0; i < particles().size(); ++i)
+            members_.at(std::size_t(particles().material[i])).push_back(std::uint32_t(i));
     }
 
     /// D of the loop, from the viscosity eta = alpha rho c h (d + 2)/3 of (20.9), with the body's means.
@@ -214,10 +230,12 @@ private:
         const SolidParticles& p = particles();
         const double count = double(p.size());
         const double b = sum_of(p.size(), [&](std::size_t i) { return mean_correction(i); }) / count;
-        const double impedance = sum_of(p.size(), [&](std::size_t i) {
-                                     const SolidMaterial& m = solid_.materials[std::size_t(p.material[i])];
-                                     return std::sqrt(m.density * m.moduli().p_wave());
-                                 }) / count;
+        const double impedance = sum_of(p.size(),
+                                        [&](std::size_t i) {
+                                            const SolidMaterial& m = solid_.materials[std::size_t(p.material[i])];
+                                            return std::sqrt(m.density * m.moduli().p_wave());
+                                        }) /
+                                 count;
         const double h = numerics_.smoothing_ratio * numerics_.spacing;
         damping_ = numerics_.viscosity * impedance * h * (dimensions() + 2) / 3 * b / distance_unit_;
     }
@@ -278,14 +296,19 @@ private:
         std::array<double, 9> u;   // sum w (u_i - u_j) d^T
         for (std::size_t k = 0; k < 9; ++k) u[k] = input_.displacement_scale * double(input_.sums[k][i]);
         const Mat3 S{{u[0], u[1], u[2]}, {u[3], u[4], u[5]}, {u[6], u[7], u[8]}};
-        return input_.displacement_scale * input_.displacement_scale * stretching - double_dot(fitted_gradient(input_, i) - identity<double>(), S);
+        return input_.displacement_scale * input_.displacement_scale * stretching -
+               double_dot(fitted_gradient(input_, i) - identity<double>(), S);
     }
 
     void sum_deformation() {
-        if (is_metal_) sum_deformation_of<true>();
-        else sum_deformation_of<false>();
+        if (is_metal_)
+            sum_deformation_of<true>();
+        else
+            sum_deformation_of<false>();
         if (numerics_.second_order) {
-            for_each_index(particles().size(), [&](std::size_t i) { put_rows(gradient_, i, fitted_gradient(input_, i) - identity<double>()); });
+            for_each_index(particles().size(), [&](std::size_t i) {
+                put_rows(gradient_, i, fitted_gradient(input_, i) - identity<double>());
+            });
             sum_around(gradient_, input_.around);
         }
         is_deformed_ = true;
@@ -293,16 +316,22 @@ private:
     using Rows = std::array<AlignedVector<Quad<T>>, 3>;
     static void put_rows(Rows& rows, std::size_t i, const Mat3& m) {
         const std::array<const Vec3*, 3> from = {&m.x, &m.y, &m.z};
-        for (std::size_t k = 0; k < 3; ++k) rows[k][i].a = T(from[k]->x), rows[k][i].b = T(from[k]->y), rows[k][i].c = T(from[k]->z);
+        for (std::size_t k = 0; k < 3; ++k)
+            rows[k][i].a = T(from[k]->x), rows[k][i].b = T(from[k]->y), rows[k][i].c = T(from[k]->z);
     }
     static Mat3 rows_at(const Rows& rows, std::size_t i) {
-        const auto row = [&](std::size_t k) { return Vec3{double(rows[k][i].a), double(rows[k][i].b), double(rows[k][i].c)}; };
+        const auto row = [&](std::size_t k) {
+            return Vec3{double(rows[k][i].a), double(rows[k][i].b), double(rows[k][i].c)};
+        };
         return {row(0), row(1), row(2)};
     }
     void sum_around(const Rows& rows, std::array<AlignedVector<T>, 9>& around) {
-        pairs_.template sum<solid_terms::Surroundings>({rows[0].data()}, {rows[0].data(), rows[1].data(), rows[2].data()}, {}, [&](std::size_t i, const auto& s) {
-            for (std::size_t k = 0; k < 9; ++k) store(s[k], &around[k][i]);
-        }, numerics_.loop);
+        pairs_.template sum<solid_terms::Surroundings>(
+            {rows[0].data()}, {rows[0].data(), rows[1].data(), rows[2].data()}, {},
+            [&](std::size_t i, const auto& s) {
+                for (std::size_t k = 0; k < 9; ++k) store(s[k], &around[k][i]);
+            },
+            numerics_.loop);
     }
 
     /// F of second order depends on that of the neighbours, so that their stress works on this particle's too: from v P B the A of
@@ -310,36 +339,45 @@ private:
     void lead_stress_back() {
         sum_around(stress_.rows, stress_around_);
         for_each_index(particles().size(), [&](std::size_t i) {
-            const Mat3 PB = 1.5 * rows_at(stress_.rows, i) - 0.5 * (matrix_at(stress_around_, i) * correction_at(input_, i));
-            put_rows(stress_.rows, i, double(input_.share[i]) * double(input_.hourglass[i]) * rows_at(gradient_, i) - PB);
+            const Mat3 PB =
+                1.5 * rows_at(stress_.rows, i) - 0.5 * (matrix_at(stress_around_, i) * correction_at(input_, i));
+            put_rows(stress_.rows, i,
+                     double(input_.share[i]) * double(input_.hourglass[i]) * rows_at(gradient_, i) - PB);
         });
     }
     template <bool is_metal>
     void sum_deformation_of() {
-        pairs_.template sum<solid_terms::Deformation<is_metal>>({displacement_.data()}, {displacement_.data()}, {}, [&](std::size_t i, const auto& s) {
-            for (std::size_t k = 0; k < 9; ++k) store(s[k], &input_.sums[k][i]);
-            if constexpr (is_metal) store(s[9], &stretching_[i]);
-        }, numerics_.loop);
+        pairs_.template sum<solid_terms::Deformation<is_metal>>(
+            {displacement_.data()}, {displacement_.data()}, {},
+            [&](std::size_t i, const auto& s) {
+                for (std::size_t k = 0; k < 9; ++k) store(s[k], &input_.sums[k][i]);
+                if constexpr (is_metal) store(s[9], &stretching_[i]);
+            },
+            numerics_.loop);
     }
 
     template <bool is_damped>
     void sum_force() {
         SolidParticles& p = particles();
-        const std::array<const Quad<T>*, 4> records = {displacement_.data(), stress_.rows[0].data(), stress_.rows[1].data(), stress_.rows[2].data()};
+        const std::array<const Quad<T>*, 4> records = {displacement_.data(), stress_.rows[0].data(),
+                                                       stress_.rows[1].data(), stress_.rows[2].data()};
         const double scale = mean_volume_ / distance_unit_;
         using Term = solid_terms::Force<is_damped>;
-        pairs_.template sum<Term>(records, records, Term{input_.displacement_scale, damping_}, [&](std::size_t first, const auto& s) {
-            const auto finish = [&](std::size_t i, const Vec<T>& pairs, T power) {
-                p.force[i] = scale * Vec3{double(pairs.x), double(pairs.y), double(pairs.z)};
-                if constexpr (is_damped) damping_power_[i] = scale * double(power);
-            };
-            if constexpr (std::is_same_v<std::decay_t<decltype(s[0])>, T>) {
-                finish(first, {s[0], s[1], s[2]}, s[s.size() - 1]);
-            } else {
-                for (int l = 0; l < int(pairs_.lanes) && first + std::size_t(l) < p.size(); ++l)
-                    finish(first + std::size_t(l), {s[0][l], s[1][l], s[2][l]}, s[s.size() - 1][l]);
-            }
-        }, numerics_.loop);
+        pairs_.template sum<Term>(
+            records, records, Term{input_.displacement_scale, damping_},
+            [&](std::size_t first, const auto& s) {
+                const auto finish = [&](std::size_t i, const Vec<T>& pairs, T power) {
+                    p.force[i] = scale * Vec3{double(pairs.x), double(pairs.y), double(pairs.z)};
+                    if constexpr (is_damped) damping_power_[i] = scale * double(power);
+                };
+                if constexpr (std::is_same_v<std::decay_t<decltype(s[0])>, T>) {
+                    finish(first, {s[0], s[1], s[2]}, s[s.size() - 1]);
+                } else {
+                    for (int l = 0; l < int(pairs_.lanes) && first + std::size_t(l) < p.size(); ++l)
+                        finish(first + std::size_t(l), {s[0][l], s[1][l], s[2][l]}, s[s.size() - 1][l]);
+                }
+            },
+            numerics_.loop);
     }
 
     /// Half of c V sum w |e|^2, in which the deviations e from a linear deformation are those of its best fit.
@@ -348,9 +386,12 @@ private:
         const SolidParticles& p = particles();
         AlignedVector<T> stretching;
         stretching.reset(pairs_.padded_size());
-        pairs_.template sum<solid_terms::Stretching>({displacement_.data()}, {displacement_.data()}, {},
-                                                     [&](std::size_t i, const auto& s) { store(s[0], &stretching[i]); }, numerics_.loop);
-        return sum_of(p.size(), [&](std::size_t i) { return 0.5 * p.volume[i] * double(input_.hourglass[i]) * unfitted(i, double(stretching[i])); });
+        pairs_.template sum<solid_terms::Stretching>(
+            {displacement_.data()}, {displacement_.data()}, {},
+            [&](std::size_t i, const auto& s) { store(s[0], &stretching[i]); }, numerics_.loop);
+        return sum_of(p.size(), [&](std::size_t i) {
+            return 0.5 * p.volume[i] * double(input_.hourglass[i]) * unfitted(i, double(stretching[i]));
+        });
     }
 
     double viscous_power() const override {   // a pair is in two sums
@@ -360,29 +401,33 @@ private:
     [[noreturn]] void report_inside_out(std::uint32_t i, double time) const {
         const SolidParticles& p = particles();
         const Vec3 &x = p.position[i], &v = p.velocity[i];
-        throw DivergedError(fmt::format("the solid was turned inside out at t = {:.6g} s: the particle at ({:.4g}, {:.4g}, {:.4g}) m, "
-                                        "at first ({:.4g}, {:.4g}, {:.4g}) m, with velocity ({:.3g}, {:.3g}, {:.3g}) m/s has det F = {:.3g}",
-                                        time, x.x, x.y, x.z, p.reference[i].x, p.reference[i].y, p.reference[i].z, v.x, v.y, v.z,
-                                        determinant(deformation_gradient(input_, i))));
+        throw DivergedError(fmt::format(
+            "the solid was turned inside out at t = {:.6g} s: the particle at ({:.4g}, {:.4g}, {:.4g}) m, "
+            "at first ({:.4g}, {:.4g}, {:.4g}) m, with velocity ({:.3g}, {:.3g}, {:.3g}) m/s has det F = {:.3g}",
+            time, x.x, x.y, x.z, p.reference[i].x, p.reference[i].y, p.reference[i].z, v.x, v.y, v.z,
+            determinant(deformation_gradient(input_, i))));
     }
 
     FixedPairs<T> pairs_;
-    AlignedVector<Quad<T>> displacement_;   // (u, hourglass modulus)
-    AlignedVector<T> stretching_;           // sum w |u_i - u_j|^2, of metals
+    AlignedVector<Quad<T>> displacement_;             // (u, hourglass modulus)
+    AlignedVector<T> stretching_;                     // sum w |u_i - u_j|^2, of metals
     Rows gradient_;                                   // F - 1 as it fits, of a body of second order
     std::array<AlignedVector<T>, 9> stress_around_;   // sum w (v P B of j, d) d^T
-    StressOutput<T> stress_;                // with a component of the velocity as fourth of each row
+    StressOutput<T> stress_;                          // with a component of the velocity as fourth of each row
     StressInput<T> input_;
-    std::vector<std::vector<std::uint32_t>> members_;  // by material
-    std::vector<double> elastic_hourglass_, softened_at_, damping_power_;   // softened_at_: the plastic strain that the hourglass modulus is for
-    double distance_unit_, displacement_unit_ = distance_unit_, damping_ = 0, mean_volume_ = 0;   // m, m, D of the loop, m^3
+    std::vector<std::vector<std::uint32_t>> members_;   // by material
+    std::vector<double> elastic_hourglass_, softened_at_,
+        damping_power_;   // softened_at_: the plastic strain that the hourglass modulus is for
+    double distance_unit_, displacement_unit_ = distance_unit_, damping_ = 0,
+                           mean_volume_ = 0;   // m, m, D of the loop, m^3
     bool is_deformed_ = false, is_metal_ = false;
 };
 
 }   // namespace
 
 std::unique_ptr<SolidBody> make_solid_body(Solid& solid, const SolidNumerics& numerics) {
-    if (numerics.precision == Precision::double_precision) return std::make_unique<TotalLagrangianBody<double>>(solid, numerics);
+    if (numerics.precision == Precision::double_precision)
+        return std::make_unique<TotalLagrangianBody<double>>(solid, numerics);
     return std::make_unique<TotalLagrangianBody<float>>(solid, numerics);
 }
 

@@ -46,10 +46,11 @@ void counting_sort(std::span<const std::uint32_t> key, std::span<const std::uint
     if (start) (*start)[keys] = sum;
 #pragma omp parallel for schedule(static, 1)
     for (int c = 0; c < chunks; ++c)
-        for (std::size_t k = begin_of(c); k < begin_of(c + 1); ++k) order[share[std::size_t(c)][key[particle(k)]]++] = particle(k);
+        for (std::size_t k = begin_of(c); k < begin_of(c + 1); ++k)
+            order[share[std::size_t(c)][key[particle(k)]]++] = particle(k);
 }
 
-}  // namespace
+}   // namespace
 
 Frame::Frame(const Vec3& low, const Vec3& high, double support, const std::array<bool, 3>& periodic)
     : low_(low), high_(high), support_(support), quantum_(support / quanta_per_support), periodic_(periodic) {
@@ -59,8 +60,10 @@ Frame::Frame(const Vec3& low, const Vec3& high, double support, const std::array
         if (quantum_ != support / quanta_per_support && std::abs(side / (quantum_ * 4294967296.0) - 1) > 1e-12)
             throw GeometryError("the periodic sides of a box must be equal");
         if (side < 3 * support)
-            throw GeometryError(fmt::format("a periodic side of {:.4g} m is shorter than three kernel supports of {:.3g} m: "
-                                            "use a finer spacing", side, support));
+            throw GeometryError(
+                fmt::format("a periodic side of {:.4g} m is shorter than three kernel supports of {:.3g} m: "
+                            "use a finer spacing",
+                            side, support));
         quantum_ = side / 4294967296.0;
     }
     inverse_quantum_ = 1 / quantum_;
@@ -68,12 +71,16 @@ Frame::Frame(const Vec3& low, const Vec3& high, double support, const std::array
     for (int axis = 0; axis < 3; ++axis) {
         const double side = component(size, axis), turn = 4294967296.0 * quantum_;
         if (!any_periodic() && !(side < 1000 * support))
-            throw GeometryError(fmt::format("the domain is {:.4g} m long, more than 1000 kernel supports of {:.3g} m: "
-                                            "use a coarser spacing or a shorter domain", side, support));
+            throw GeometryError(
+                fmt::format("the domain is {:.4g} m long, more than 1000 kernel supports of {:.3g} m: "
+                            "use a coarser spacing or a shorter domain",
+                            side, support));
         // A longer distance would wrap onto a short one.
         if (any_periodic() && !periodic[std::size_t(axis)] && !(side + support <= turn))
-            throw GeometryError(fmt::format("a periodic side of {:.4g} m is too short for a box of {:.4g} m and a kernel support of "
-                                            "{:.3g} m across it: make the periodic side longer", turn, side, support));
+            throw GeometryError(
+                fmt::format("a periodic side of {:.4g} m is too short for a box of {:.4g} m and a kernel support of "
+                            "{:.3g} m across it: make the periodic side longer",
+                            turn, side, support));
     }
     const Vec3 centre = 0.5 * (low + high);
     centre_ = {centre.x, centre.y, centre.z};
@@ -96,7 +103,8 @@ void Cells::measure(const Frame& frame, double spacing) {
     side_ = std::max<std::int64_t>(1, std::int64_t(column_side_in_spacings * spacing / frame.quantum()));
     bin_ = std::max<std::int64_t>(1, std::int64_t(bin_in_spacings * spacing / frame.quantum()));
     for (std::size_t k = 0; k < 3; ++k) {
-        const double half = 0.5 * (component(frame.high(), axes_[k]) - component(frame.low(), axes_[k])) / frame.quantum();
+        const double half =
+            0.5 * (component(frame.high(), axes_[k]) - component(frame.low(), axes_[k])) / frame.quantum();
         origin_[k] = -std::int64_t(half) - 4;
         if (k > 0) columns_[k - 1] = (std::int64_t(half) + 4 - origin_[k]) / side_ + 1;
     }
@@ -120,8 +128,10 @@ std::span<const std::uint32_t> Cells::find_order(const Frame& frame, double spac
         key_[i] = column_of(x);
         bin_key_[i] = std::uint32_t(std::max<std::int64_t>(0, bin_of(x[std::size_t(axes_[0])])));
     });
-    const std::uint32_t bins = reduce(count, std::uint32_t(0), [&](std::size_t i) { return bin_key_[i]; },
-                                      [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); }) + 1;
+    const std::uint32_t bins = reduce(
+                                   count, std::uint32_t(0), [&](std::size_t i) { return bin_key_[i]; },
+                                   [](std::uint32_t a, std::uint32_t b) { return std::max(a, b); }) +
+                               1;
     counting_sort(bin_key_, {}, bins, order_by_bin_, nullptr);
     counting_sort(key_, order_by_bin_, std::size_t(columns_[0] * columns_[1]), order_, &column_start_);
     return order_;
@@ -150,7 +160,8 @@ void Cells::index(const Frame& frame, double spacing, std::span<const Vec3> posi
 /// Cuts ranges of columns down to the particles whose bins lie in [first_bin, last_bin]; none is empty. Bisections wait for memory at
 /// every step, and without branches, which would be guessed wrong half the time, nothing runs ahead: all at once, they
 /// wait together.
-void Cells::narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count, std::int32_t first_bin, std::int32_t last_bin) const {
+void Cells::narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count, std::int32_t first_bin,
+                   std::int32_t last_bin) const {
     std::array<Range, ranges_at_once> found;   // how many are below the first, and not above the last
     std::uint32_t longest = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -170,4 +181,4 @@ void Cells::narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count,
     std::copy_n(found.begin(), count, ranges.begin());
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -42,7 +42,8 @@ public:
 
 private:
     std::int32_t fixed_one(double x, int axis) const {   // through 64 bits: the upper face of a periodic box wraps
-        return static_cast<std::int32_t>(static_cast<std::int64_t>((x - centre_[std::size_t(axis)]) * inverse_quantum_));
+        return static_cast<std::int32_t>(
+            static_cast<std::int64_t>((x - centre_[std::size_t(axis)]) * inverse_quantum_));
     }
     Vec3 low_, high_;
     std::array<double, 3> centre_{};
@@ -76,7 +77,8 @@ private:
         std::uint32_t begin, end;
     };
     static constexpr std::size_t ranges_at_once = 16;
-    void narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count, std::int32_t first_bin, std::int32_t last_bin) const;
+    void narrow(std::array<Range, ranges_at_once>& ranges, std::size_t count, std::int32_t first_bin,
+                std::int32_t last_bin) const;
     std::int64_t bin_of(std::int64_t along) const { return (along - origin_[0]) / bin_; }
     void measure(const Frame& frame, double spacing);
     std::uint32_t column_of(const std::array<std::int32_t, 3>& x) const;
@@ -87,7 +89,7 @@ private:
     std::int64_t side_ = 1, bin_ = 1;        // of a column, along it
     std::int64_t columns_[2] = {1, 1};
     std::vector<std::uint32_t> column_start_;
-    std::vector<std::int32_t> bins_;         // of every particle, along its column
+    std::vector<std::int32_t> bins_;   // of every particle, along its column
     std::array<AlignedVector<std::int32_t>, 3> coordinates_;
     std::vector<std::uint32_t> order_, order_by_bin_, key_, bin_key_;
 };
@@ -107,7 +109,8 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
         const std::int64_t left = origin_[axis] + c * side_, right = left + side_;
         return left > high[axis] ? left - high[axis] : right < low[axis] ? low[axis] - right : std::int64_t(0);
     };
-    const std::int32_t first_bin = std::int32_t(bin_of(low[0] - reach) - 1), last_bin = std::int32_t(bin_of(high[0] + reach) + 1);
+    const std::int32_t first_bin = std::int32_t(bin_of(low[0] - reach) - 1),
+                       last_bin = std::int32_t(bin_of(high[0] + reach) + 1);
     std::array<Range, ranges_at_once> ranges;
     std::size_t count = 0;
     const auto visit_ranges = [&] {
@@ -120,7 +123,8 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
         const std::int64_t gap_b = gap(b, 1);
         for (std::int64_t a = a0; a <= a1; ++a) {
             const std::int64_t gap_a = gap(a, 0);
-            if (gap_a >= reach || gap_b >= reach || gap_a * gap_a + gap_b * gap_b >= r2) continue;   // (squares overflow)
+            if (gap_a >= reach || gap_b >= reach || gap_a * gap_a + gap_b * gap_b >= r2)
+                continue;   // (squares overflow)
             const std::size_t column = std::size_t(b * columns_[0] + a);
             const Range all{column_start_[column], column_start_[column + 1]};
             if (all.begin == all.end) continue;
@@ -131,4 +135,4 @@ void Cells::for_each_run(const std::array<std::int64_t, 3>& low, const std::arra
     visit_ranges();
 }
 
-}  // namespace patency
+}   // namespace patency

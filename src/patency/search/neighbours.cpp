@@ -29,7 +29,8 @@ struct Candidates {
     std::vector<std::uint32_t> index;
     std::vector<float> x, y, z;
     std::size_t count = 0;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;   // of particles in memory, where the candidates are looked for
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        runs;   // of particles in memory, where the candidates are looked for
 
     void reserve(std::size_t n) {
         if (index.size() >= n + width) return;
@@ -62,7 +63,8 @@ void collect(const Cells& cells, std::uint32_t begin, std::uint32_t end, const s
     const auto gap = [&](std::size_t k, Floats d) {
         return max(max(Floats(box.low[k]) - d, d - Floats(box.high[k])), Floats(0));
     };
-    const std::int32_t *x = cells.coordinate(0).data(), *y = cells.coordinate(1).data(), *z = cells.coordinate(2).data();
+    const std::int32_t *x = cells.coordinate(0).data(), *y = cells.coordinate(1).data(),
+                       *z = cells.coordinate(2).data();
     std::size_t count = out.count;
     for (std::uint32_t j = begin; j < end; j += std::uint32_t(width)) {
         const Floats dx = load_difference<Floats::lanes>(x + j, reference[0]);
@@ -81,8 +83,8 @@ void collect(const Cells& cells, std::uint32_t begin, std::uint32_t end, const s
 
 /// A particle that looks for its row.
 struct Seeker {
-    std::array<float, 3> at{};        // relative to the chunk's reference
-    std::size_t self = 0;             // its place among the candidates, itself left out; their number if it is none of them
+    std::array<float, 3> at{};   // relative to the chunk's reference
+    std::size_t self = 0;        // its place among the candidates, itself left out; their number if it is none of them
     std::vector<std::uint32_t> row;   // with room for all candidates and a pack more
     std::size_t length = 0;           // of the row
 };
@@ -98,7 +100,8 @@ void select(const Candidates& from, float reach2, std::array<Seeker, seekers_at_
         for (std::size_t s = 0; s < seekers_at_once; ++s) {
             const Floats dx = x - seekers[s].at[0], dy = y - seekers[s].at[1], dz = z - seekers[s].at[2];
             const Floats r2 = fma(dz, dz, fma(dy, dy, dx * dx));
-            const std::uint32_t itself = std::uint32_t(std::uint64_t(1) << std::min<std::size_t>(seekers[s].self - k, 63));
+            const std::uint32_t itself =
+                std::uint32_t(std::uint64_t(1) << std::min<std::size_t>(seekers[s].self - k, 63));
             count[s] += store_chosen(index, lanes_below(r2, Floats(reach2)) & ~itself, row[s] + count[s]);
         }
     }
@@ -189,7 +192,7 @@ void close(OpenGroup& group, std::uint32_t dummy_own, std::uint32_t dummy_other,
     group.members.clear();
 }
 
-}  // namespace
+}   // namespace
 
 void Neighbours::find_own(const Frame& frame, const Cells& cells, double reach, int lanes) {
     find(frame, cells, cells, reach, lanes, true);
@@ -215,12 +218,15 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
         group.lengths.resize(std::size_t(lanes));
 #pragma omp for schedule(dynamic, 1)
         for (std::size_t b = 0; b < block_count_; ++b) {
-            Block block = std::move(blocks_[b]);   // with its storage; aside, because blocks of other threads are close by
+            Block block =
+                std::move(blocks_[b]);   // with its storage; aside, because blocks of other threads are close by
             block.members.clear();
             block.group_start.assign(1, 0);
             block.entries.reset(0);
             block.member_count = 0, block.pairs = 0;
-            const auto close_group = [&] { close(group, std::uint32_t(count), std::uint32_t(other.size()), same, block); };
+            const auto close_group = [&] {
+                close(group, std::uint32_t(count), std::uint32_t(other.size()), same, block);
+            };
             const std::size_t first = b * particles_per_block, last = std::min(count, first + particles_per_block);
             for (std::size_t begin = first, end = first; begin < last; begin = end) {
                 end = std::min(last, begin + chunk);
@@ -236,9 +242,11 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
                 for (std::size_t i = begin; i < end; i += seekers_at_once) {
                     for (std::size_t s = 0; s < seekers_at_once; ++s) {
                         const std::size_t who = std::min(i + s, end - 1);   // the last one may be there twice
-                        for (std::size_t k = 0; k < 3; ++k) seekers[s].at[k] = relative(own.coordinate(int(k))[who], reference[k]);
+                        for (std::size_t k = 0; k < 3; ++k)
+                            seekers[s].at[k] = relative(own.coordinate(int(k))[who], reference[k]);
                         seekers[s].self = same && candidates.index[self] == who ? self++ : candidates.count;
-                        if (seekers[s].row.size() < candidates.count + width) seekers[s].row.resize(candidates.count + width);
+                        if (seekers[s].row.size() < candidates.count + width)
+                            seekers[s].row.resize(candidates.count + width);
                     }
                     select(candidates, reach2, seekers);
                     for (std::size_t s = 0; s < seekers_at_once && i + s < end; ++s) {
@@ -272,4 +280,4 @@ std::size_t Neighbours::member_count() const {
     return block_count_ == 0 ? 0 : blocks_[block_count_ - 1].first_member + blocks_[block_count_ - 1].member_count;
 }
 
-}  // namespace patency
+}   // namespace patency

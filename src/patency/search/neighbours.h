@@ -16,11 +16,11 @@ class Neighbours {
 public:
     /// Particles that are found and sorted together; a task of the pair loop.
     struct Block {
-        std::vector<std::uint32_t> members;      ///< particles that have a row, padded to whole groups with the dummy
-        std::vector<std::uint32_t> group_start;  ///< first entry of each group, and the end
-        AlignedVector<std::uint32_t> entries;    ///< indices of neighbours, `lanes` side by side
-        std::uint32_t first_member = 0;          ///< number of members in earlier blocks
-        std::uint32_t member_count = 0;          ///< without padding
+        std::vector<std::uint32_t> members;       ///< particles that have a row, padded to whole groups with the dummy
+        std::vector<std::uint32_t> group_start;   ///< first entry of each group, and the end
+        AlignedVector<std::uint32_t> entries;     ///< indices of neighbours, `lanes` side by side
+        std::uint32_t first_member = 0;           ///< number of members in earlier blocks
+        std::uint32_t member_count = 0;           ///< without padding
         std::uint64_t pairs = 0;
     };
 
@@ -43,4 +43,4 @@ private:
     int lanes_ = 1;
 };
 
-}  // namespace patency
+}   // namespace patency

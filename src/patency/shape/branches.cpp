@@ -152,12 +152,15 @@ void name_branches(BranchedLines& vessel, const std::map<std::string, Vec3>& poi
         const auto branch = branch_around(vessel, point);
         if (!branch) throw UsageError(fmt::format("the point of '{}' lies in no branch", shortened(name)));
         const auto [there, is_new] = names.try_emplace(*branch, name);
-        if (!is_new) throw UsageError(fmt::format("the points of '{}' and '{}' lie in the same branch", shortened(there->second), shortened(name)));
+        if (!is_new)
+            throw UsageError(fmt::format("the points of '{}' and '{}' lie in the same branch", shortened(there->second),
+                                         shortened(name)));
     }
     for (const auto& [branch, name] : names) vessel.branches[branch].name = name;
     std::set<std::string> known;
     for (const Branch& branch : vessel.branches)
-        if (!known.insert(branch.name).second) throw UsageError(fmt::format("two branches would be '{}'", shortened(branch.name)));
+        if (!known.insert(branch.name).second)
+            throw UsageError(fmt::format("two branches would be '{}'", shortened(branch.name)));
 }
 
 Vec3 normal_of(const BranchedLines& vessel) {
@@ -168,7 +171,8 @@ Vec3 normal_of(const BranchedLines& vessel) {
     const Eigen::Vector3d mean = sum / double(points.size());
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const Eigen::Vector3d& p : points) spread += (p - mean) * (p - mean).transpose();
-    const Eigen::Vector3d n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);   // of the least spread
+    const Eigen::Vector3d n =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);   // of the least spread
     return {n.x(), n.y(), n.z()};
 }
 

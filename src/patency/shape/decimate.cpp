@@ -75,13 +75,15 @@ Decimated decimate(std::span<const Vec3> points, std::span<const Triangle> trian
     filter->Update();
     vtkPolyData& out = *filter->GetOutput();
     vtkDataArray& kept = *out.GetPointData()->GetArray(number_name);
-    for (vtkIdType k = 0; k < out.GetNumberOfPoints(); ++k) numbers[std::size_t(k)] = std::uint32_t(kept.GetComponent(k, 0));
+    for (vtkIdType k = 0; k < out.GetNumberOfPoints(); ++k)
+        numbers[std::size_t(k)] = std::uint32_t(kept.GetComponent(k, 0));
     numbers.resize(std::size_t(out.GetNumberOfPoints()));
     std::vector<Triangle> left;
     vtkNew<vtkIdList> corners;
     for (vtkCellArray& cells = *out.GetPolys(); left.size() < std::size_t(cells.GetNumberOfCells());) {
         cells.GetCellAtId(vtkIdType(left.size()), corners);
-        left.push_back({std::uint32_t(corners->GetId(0)), std::uint32_t(corners->GetId(1)), std::uint32_t(corners->GetId(2))});
+        left.push_back(
+            {std::uint32_t(corners->GetId(0)), std::uint32_t(corners->GetId(1)), std::uint32_t(corners->GetId(2))});
     }
     return tidied(numbers, left);
 }

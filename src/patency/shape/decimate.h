@@ -11,8 +11,8 @@
 namespace patency {
 
 struct Decimated {
-    std::vector<std::uint32_t> kept;    ///< points that are left, by their old numbers
-    std::vector<Triangle> triangles;    ///< of the points that are left, by their new numbers
+    std::vector<std::uint32_t> kept;   ///< points that are left, by their old numbers
+    std::vector<Triangle> triangles;   ///< of the points that are left, by their new numbers
 };
 
 /// About `most` triangles, flat places losing theirs first (Schroeder, Zarge and Lorensen, SIGGRAPH 1992, as VTK has it). No point

@@ -61,13 +61,15 @@ void check_outline(const std::vector<AxialRadius>& outline) {
     if (outline.empty()) throw GeometryError("A body of revolution needs at least one point of its outline.");
     for (std::size_t k = 0; k < outline.size(); ++k) {
         if (!std::isfinite(outline[k].axial) || !(outline[k].radius >= 0) || !std::isfinite(outline[k].radius))
-            throw GeometryError(fmt::format("Point {} of the outline is at {} m with radius {} m: both must be finite "
-                                            "and the radius not negative.",
-                                            k + 1, outline[k].axial, outline[k].radius));
+            throw GeometryError(
+                fmt::format("Point {} of the outline is at {} m with radius {} m: both must be finite "
+                            "and the radius not negative.",
+                            k + 1, outline[k].axial, outline[k].radius));
         if (k > 0 && outline[k].axial < outline[k - 1].axial)
-            throw GeometryError(fmt::format("The outline goes back at point {} (from {} m to {} m): order the points "
-                                            "along the axis.",
-                                            k + 1, outline[k - 1].axial, outline[k].axial));
+            throw GeometryError(
+                fmt::format("The outline goes back at point {} (from {} m to {} m): order the points "
+                            "along the axis.",
+                            k + 1, outline[k - 1].axial, outline[k].axial));
     }
 }
 
@@ -85,7 +87,7 @@ double radius_at(const std::vector<AxialRadius>& outline, double a) {
 struct SphereRow {
     Vec3 start, axis, aside;   // aside: any unit vector across the axis
     double length, radius;
-    double sine, cosine;       // of the angle between the axis and the wall
+    double sine, cosine;   // of the angle between the axis and the wall
 };
 
 SphereRow make_sphere_row(const RoundCone& p) {
@@ -113,7 +115,7 @@ DistanceSample sample_of(const SphereRow& row, const Vec3& x) {
     return {value, from_centre / reach, t == best ? row.cosine / from_axis : 2 / reach};
 }
 
-}  // namespace
+}   // namespace
 
 SignedDistance everywhere() {
     return {[](const Vec3&) { return DistanceSample{-infinity, {}, 0}; }, Bounds{}};
@@ -158,13 +160,14 @@ SignedDistance box_between(const Vec3& low, const Vec3& high, std::array<bool, 3
 SignedDistance gap_between_plates(double gap) { return box_between({}, {0, gap, 0}, {false, true, false}); }
 
 SignedDistance stepped_gap(double gap, double height, double at) {
-    const std::vector<Segment> segments = {{0, gap, 1, 0, infinity, -infinity},      // above
-                                           {at, height, -1, 0, infinity},            // below, ahead of the step
-                                           {at, 0, 0, 1, height},                    // the step
-                                           {at, 0, -1, 0, 0, -infinity}};            // below, behind it
+    const std::vector<Segment> segments = {{0, gap, 1, 0, infinity, -infinity},   // above
+                                           {at, height, -1, 0, infinity},         // below, ahead of the step
+                                           {at, 0, 0, 1, height},                 // the step
+                                           {at, 0, -1, 0, 0, -infinity}};         // below, behind it
     const Bounds bounds{{-infinity, 0, -infinity}, {infinity, gap, infinity}};
     return {[=](const Vec3& x) {
-                const PlaneSample s = nearest(segments, x.x, x.y, x.y < gap && x.y > (x.x < at ? height : 0), 1e-14 * gap);
+                const PlaneSample s =
+                    nearest(segments, x.x, x.y, x.y < gap && x.y > (x.x < at ? height : 0), 1e-14 * gap);
                 return DistanceSample{s.value, {s.axial_slope, s.radial_slope, 0}, s.curvature};
             },
             bounds};
@@ -231,4 +234,4 @@ SignedDistance union_of_round_cones(const std::vector<RoundCone>& pieces) {
             bounds};
 }
 
-}  // namespace patency
+}   // namespace patency

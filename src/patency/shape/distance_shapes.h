@@ -33,8 +33,8 @@ struct AxialRadius {
 };
 
 enum class TubeEnds {
-    open,    ///< the first and the last radius go on straight for ever
-    capped,  ///< flat caps close the body
+    open,     ///< the first and the last radius go on straight for ever
+    capped,   ///< flat caps close the body
 };
 
 /// The round body around the x axis whose outline is piecewise linear: tube, cone, nozzle, sudden expansion.
@@ -48,8 +48,8 @@ SignedDistance round_tube(double radius);
 
 /// A straight piece of a vessel: all spheres along it, their radii linear in between (a round cone).
 struct RoundCone {
-    Vec3 start, end;                  ///< [m]
-    double start_radius, end_radius;  ///< [m], > 0
+    Vec3 start, end;                   ///< [m]
+    double start_radius, end_radius;   ///< [m], > 0
 };
 
 /// The union of round cones, which is a network of tapered round tubes with smooth joints:
@@ -57,4 +57,4 @@ struct RoundCone {
 /// only |value| <= the true distance, near the edges where pieces meet. At least one piece.
 SignedDistance union_of_round_cones(const std::vector<RoundCone>& pieces);
 
-}  // namespace patency
+}   // namespace patency

@@ -67,7 +67,8 @@ struct Leaf {
     Vec<P> a, b, c;   // corners
 
     void set(int n, const std::array<Vec3, 3>& p) {
-        for (const auto& [corner, at] : {std::pair{&a, p[0]}, {&b, p[1]}, {&c, p[2]}}) corner->x.v[n] = at.x, corner->y.v[n] = at.y, corner->z.v[n] = at.z;
+        for (const auto& [corner, at] : {std::pair{&a, p[0]}, {&b, p[1]}, {&c, p[2]}})
+            corner->x.v[n] = at.x, corner->y.v[n] = at.y, corner->z.v[n] = at.z;
     }
     /// The squares of their distances from x, to round-off. Without branches, so that triangles go side by side.
     void squares_from(const Vec3& x, std::array<double, std::size_t(size)>& square) const {
@@ -93,13 +94,15 @@ struct ExactSurface {
     Surface surface;
     TriangleTree tree;
     std::vector<Leaf> leaves;
-    std::vector<std::uint32_t> leaf_of;   // per node of the tree
+    std::vector<std::uint32_t> leaf_of;         // per node of the tree
     std::vector<std::array<Vec3, 7>> normals;   // per triangle and feature; of any length
     std::vector<bool> crumpled;                 // triangles whose normals do not tell the side
 
-
     explicit ExactSurface(Surface closed)
-        : surface(std::move(closed)), tree(surface), leaf_of(tree.nodes().size(), 0), normals(surface.triangles.size()) {
+        : surface(std::move(closed)),
+          tree(surface),
+          leaf_of(tree.nodes().size(), 0),
+          normals(surface.triangles.size()) {
         make_leaves();
         std::vector<Vec3> corner(surface.points.size());
         for (std::size_t k = 0; k < normals.size(); ++k) {
@@ -142,11 +145,14 @@ struct ExactSurface {
         const auto mark = [&](std::uint32_t triangle) {
             for (const std::uint32_t point : surface.triangles[triangle]) at_point[point] = true;
         };
-        for (const TrianglePair& pair : find_crossing_triangles(surface, surface.triangles.size())) mark(pair.a), mark(pair.b);
-        constexpr double folded = -0.5;   // cosine between neighbours' normals, of an edge sharper than 60 degrees: one may lie on the other
+        for (const TrianglePair& pair : find_crossing_triangles(surface, surface.triangles.size()))
+            mark(pair.a), mark(pair.b);
+        constexpr double folded =
+            -0.5;   // cosine between neighbours' normals, of an edge sharper than 60 degrees: one may lie on the other
         for_each_edge(std::span<const EdgeUse>(uses), [&](std::span<const EdgeUse> edge) {
             for (const EdgeUse& use : edge)
-                if (dot(normals[edge[0].triangle][0], normals[use.triangle][0]) < folded) mark(edge[0].triangle), mark(use.triangle);
+                if (dot(normals[edge[0].triangle][0], normals[use.triangle][0]) < folded)
+                    mark(edge[0].triangle), mark(use.triangle);
         });
         crumpled.resize(surface.triangles.size());
         for (std::size_t k = 0; k < crumpled.size(); ++k)
@@ -172,15 +178,16 @@ struct ExactSurface {
     struct Nearest {
         std::uint32_t triangle;
         NearestPlace near;
-        bool is_within;        ///< reach; if not, triangle and place are none
-        double least_square;   ///< what no triangle's squared distance is less than, and at least that of reach if none is within it
+        bool is_within;   ///< reach; if not, triangle and place are none
+        double
+            least_square;   ///< what no triangle's squared distance is less than, and at least that of reach if none is within it
     };
     Nearest nearest(const Vec3& x, double reach) const {
         const auto& nodes = tree.nodes();
         std::uint32_t triangle = 0;
         NearestPlace best{};
-        double least = reach * reach;       // the square of its distance
-        double beyond = Bounds::infinity;   // that of all which are left out for being farther
+        double least = reach * reach;                               // the square of its distance
+        double beyond = Bounds::infinity;                           // that of all which are left out for being farther
         std::array<std::pair<std::uint32_t, double>, 64> waiting;   // the tree is at most 32 deep, two nodes each
         std::size_t count = 0;
         waiting[count++] = {0, square_to(nodes[0].box, x)};

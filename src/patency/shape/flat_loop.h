@@ -14,12 +14,12 @@ namespace patency {
 /// A closed line of points, as a flat face within it would be measured.
 struct FlatLoop {
     std::vector<std::uint32_t> rim{};   ///< indices of the surface's points; the last is followed by the first
-    Vec3 centre{};                      ///< centroid of the area, or mean of the points where that has none among them [m]
-    Vec3 normal{};                      ///< unit; of the face that would close the surface: outward
-    double area = 0;                    ///< [m^2]
-    double perimeter = 0;               ///< [m]
-    double reach = 0;                   ///< from the centre to the farthest point of the rim [m]
-    double flatness = 0;                ///< largest distance of the rim from its plane [m]
+    Vec3 centre{};          ///< centroid of the area, or mean of the points where that has none among them [m]
+    Vec3 normal{};          ///< unit; of the face that would close the surface: outward
+    double area = 0;        ///< [m^2]
+    double perimeter = 0;   ///< [m]
+    double reach = 0;       ///< from the centre to the farthest point of the rim [m]
+    double flatness = 0;    ///< largest distance of the rim from its plane [m]
 
     double diameter() const;    ///< of a disc of the same area [m]
     double roundness() const;   ///< 4 pi area / perimeter^2: 1 for a circle, 0.79 for a square

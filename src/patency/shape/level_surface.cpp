@@ -139,7 +139,9 @@ private:
                     int inside = 0;
                     for (int c = 0; c < 8; ++c) {
                         const int x = i + (c & 1), y = j + (c >> 1 & 1), z = k + (c >> 2);
-                        cell.values[c] = values[(std::size_t(z) * std::size_t(n[1] + 1) + std::size_t(y)) * std::size_t(n[0] + 1) + std::size_t(x)];
+                        cell.values[c] =
+                            values[(std::size_t(z) * std::size_t(n[1] + 1) + std::size_t(y)) * std::size_t(n[0] + 1) +
+                                   std::size_t(x)];
                         inside += cell.values[c] < 0;
                     }
                     if (inside > 0 && inside < 8) found.push_back(cell);

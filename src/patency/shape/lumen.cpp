@@ -31,7 +31,7 @@ Vec3 along(int axis, double value) {
     return {axis == 0 ? value : 0.0, axis == 1 ? value : 0.0, axis == 2 ? value : 0.0};
 }
 
-}  // namespace
+}   // namespace
 
 OpeningCoordinates opening_coordinates(const Opening& opening, const Vec3& x) {
     const Vec3 from_centre = x - opening.centre;
@@ -51,9 +51,7 @@ int opening_beyond(const Lumen& lumen, const Vec3& x, double margin) {
     return -1;
 }
 
-bool contains(const Lumen& lumen, const Vec3& x) {
-    return lumen.distance.value(x) < 0 && opening_beyond(lumen, x) < 0;
-}
+bool contains(const Lumen& lumen, const Vec3& x) { return lumen.distance.value(x) < 0 && opening_beyond(lumen, x) < 0; }
 
 Lumen moved(Lumen lumen, const RigidMotion& motion) {
     const auto differs = [](const Vec3& a, const Vec3& b) { return norm(a - b) > 1e-14; };
@@ -110,7 +108,8 @@ Lumen make_box(const BoxShape& shape) {
 }
 
 Lumen make_channel(const ChannelShape& shape) {
-    return make_box({.size = {shape.length, shape.gap, 0}, .sides = {shape.ends, Side::wall, Side::wall}, .planar = true});
+    return make_box(
+        {.size = {shape.length, shape.gap, 0}, .sides = {shape.ends, Side::wall, Side::wall}, .planar = true});
 }
 
 Lumen make_step(const StepShape& shape) {
@@ -123,7 +122,8 @@ Lumen make_step(const StepShape& shape) {
         return Opening{std::move(name), {x, low + half, 0}, {out, 0, 0}, 2 * half, half, half, true, half * half / 3};
     };
     return {.distance = stepped_gap(shape.gap, shape.height, shape.at),
-            .openings = {opening("inlet", 0, shape.height, shape.gap, -1), opening("outlet", shape.length, 0, shape.gap, 1)},
+            .openings = {opening("inlet", 0, shape.height, shape.gap, -1),
+                         opening("outlet", shape.length, 0, shape.gap, 1)},
             .volume = shape.length * shape.gap - shape.at * shape.height,
             .wall_area = 2 * shape.length + shape.height,
             .planar = true,
@@ -177,16 +177,18 @@ Lumen make_nozzle(const NozzleShape& shape) {
 
 Lumen make_branches(const BranchesShape& shape) {
     expect_positive("extension of the branches", shape.extension);
-    std::vector<RoundCone> pieces;                  // of the lumen, then its straight continuations
+    std::vector<RoundCone> pieces;   // of the lumen, then its straight continuations
     std::vector<RoundCone> extensions;
-    std::vector<std::size_t> first_piece, owner;    // per branch; per opening
+    std::vector<std::size_t> first_piece, owner;   // per branch; per opening
     std::vector<Opening> openings;
     double smallest = Bounds::infinity;
     for (std::size_t k = 0; k < shape.branches.size(); ++k) {
         const BranchShape& b = shape.branches[k];
         if (b.points.size() < 2 || b.points.size() != b.radii.size())
-            throw GeometryError(fmt::format("Branch {} has {} points and {} radii: it needs two or more of each, as "
-                                            "many radii as points.", k + 1, b.points.size(), b.radii.size()));
+            throw GeometryError(
+                fmt::format("Branch {} has {} points and {} radii: it needs two or more of each, as "
+                            "many radii as points.",
+                            k + 1, b.points.size(), b.radii.size()));
         first_piece.push_back(pieces.size());
         for (std::size_t p = 0; p < b.points.size(); ++p) {
             expect_positive("radius of a branch", b.radii[p]);
@@ -198,8 +200,10 @@ Lumen make_branches(const BranchesShape& shape) {
             const Vec3 step = b.points[at] - b.points[before];
             const double length = norm(step), narrowing = (b.radii[before] - b.radii[at]) / length;
             if (!(length > 0) || std::abs(narrowing) >= 1)
-                throw GeometryError(fmt::format("Branch {} ends at opening '{}' with a piece too short for its taper: "
-                                                "move the point before it away.", k + 1, name));
+                throw GeometryError(
+                    fmt::format("Branch {} ends at opening '{}' with a piece too short for its taper: "
+                                "move the point before it away.",
+                                k + 1, name));
             // The wall is tangent to the spheres: where it narrows, the plane through the last centre cuts it at
             // r / cos; the continuation takes that radius, so that the wall goes on without a step.
             const double radius = narrowing > 0 ? b.radii[at] / std::sqrt(1 - narrowing * narrowing) : b.radii[at];
@@ -227,9 +231,10 @@ Lumen make_branches(const BranchesShape& shape) {
         const double radius = openings[k].radius;
         for (double s = 0; s <= shape.extension; s += 0.25 * radius)
             if (rest.value(openings[k].centre + s * openings[k].normal) < radius)
-                throw GeometryError(fmt::format("Opening '{}' runs into another branch {:.3g} m past its plane: move "
-                                                "the opening or shorten the extension of {:.3g} m.",
-                                                openings[k].name, s, shape.extension));
+                throw GeometryError(
+                    fmt::format("Opening '{}' runs into another branch {:.3g} m past its plane: move "
+                                "the opening or shorten the extension of {:.3g} m.",
+                                openings[k].name, s, shape.extension));
     }
 
     const Bounds bounds = union_of_round_cones(pieces).bounds();
@@ -246,4 +251,4 @@ Lumen make_branches(const BranchesShape& shape) {
     return lumen;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -17,19 +17,19 @@ namespace patency {
 /// A flat end through which blood enters or leaves.
 struct Opening {
     std::string name;
-    Vec3 centre;      ///< [m]
-    Vec3 normal;      ///< unit, OUT of the lumen
-    double area;      ///< [m^2]; planar: width [m], which is the area per metre of depth
-    double radius;    ///< equivalent, sqrt(area / pi) [m]; planar: half the width
-    double reach;     ///< from the centre to the farthest point of the opening [m]
+    Vec3 centre;     ///< [m]
+    Vec3 normal;     ///< unit, OUT of the lumen
+    double area;     ///< [m^2]; planar: width [m], which is the area per metre of depth
+    double radius;   ///< equivalent, sqrt(area / pi) [m]; planar: half the width
+    double reach;    ///< from the centre to the farthest point of the opening [m]
     bool planar;
     double mean_square;   ///< mean over the opening of the squared distance from its centre [m^2]
 };
 
 /// A place seen from an opening.
 struct OpeningCoordinates {
-    double s;        ///< along the normal [m], positive outside of the lumen
-    Vec3 radial;     ///< across the normal, from the opening's axis [m]
+    double s;      ///< along the normal [m], positive outside of the lumen
+    Vec3 radial;   ///< across the normal, from the opening's axis [m]
 };
 OpeningCoordinates opening_coordinates(const Opening& opening, const Vec3& x);
 
@@ -38,14 +38,14 @@ struct Lumen {
     /// the part behind the opening planes.
     SignedDistance distance;
     std::vector<Opening> openings;
-    double volume;        ///< behind the opening planes [m^3]; planar: [m^2], per metre of depth
-    double wall_area;     ///< without the openings [m^2]; planar: [m]
-    bool planar = false;  ///< all in the plane z = 0
+    double volume;                         ///< behind the opening planes [m^3]; planar: [m^2], per metre of depth
+    double wall_area;                      ///< without the openings [m^2]; planar: [m]
+    bool planar = false;                   ///< all in the plane z = 0
     double extension = Bounds::infinity;   ///< how far the distance goes on straight past an opening [m]
-    Bounds bounds;        ///< around the lumen behind its openings [m]
-    double narrowest = 0; ///< the smallest width anywhere: a gap, a side or a diameter [m]; 0 if nobody said
+    Bounds bounds;                         ///< around the lumen behind its openings [m]
+    double narrowest = 0;   ///< the smallest width anywhere: a gap, a side or a diameter [m]; 0 if nobody said
     Passage passage{};
-    Vec3 period{};        ///< the length of the periodic box per axis [m], 0 where it is not periodic
+    Vec3 period{};   ///< the length of the periodic box per axis [m], 0 where it is not periodic
     /// Where lattices of particles are laid: cell faces pass through the frame's origin, and along an axis with
     /// fit > 0 a whole number of cells fills that length [m].
     RigidMotion frame{};
@@ -113,8 +113,8 @@ Lumen make_nozzle(const NozzleShape& shape);
 /// A branch: a centreline with radii, linear in between. An end with a name is an opening across the
 /// centreline; one without lies inside another branch (or is a round blind end).
 struct BranchShape {
-    std::vector<Vec3> points;     ///< [m], two or more
-    std::vector<double> radii;    ///< [m], one per point
+    std::vector<Vec3> points;    ///< [m], two or more
+    std::vector<double> radii;   ///< [m], one per point
     std::string start, end;
 };
 struct BranchesShape {
@@ -125,4 +125,4 @@ struct BranchesShape {
 /// 1e-4. Throws GeometryError if an opening or its straight continuation runs into another branch.
 Lumen make_branches(const BranchesShape& shape);
 
-}  // namespace patency
+}   // namespace patency

@@ -30,7 +30,8 @@ Vec3 morphed(const Vec3& x, const StentAxis& axis, const LumenMorph& morph) {
 }
 
 void morph_surface(Surface& surface, const StentAxis& axis, const LumenMorph& morph) {
-    for_each_index(surface.points.size(), [&](std::size_t i) { surface.points[i] = morphed(surface.points[i], axis, morph); });
+    for_each_index(surface.points.size(),
+                   [&](std::size_t i) { surface.points[i] = morphed(surface.points[i], axis, morph); });
 }
 
 }   // namespace patency

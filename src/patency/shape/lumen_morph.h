@@ -8,9 +8,9 @@
 namespace patency {
 
 struct LumenMorph {
-    double radius;     ///< of the opened stent, outside [m]
-    double length;     ///< of the opened stent [m]
-    double shoulder;   ///< from its ends to the vessel as it was [m]
+    double radius;          ///< of the opened stent, outside [m]
+    double length;          ///< of the opened stent [m]
+    double shoulder;        ///< from its ends to the vessel as it was [m]
     double corner = 0.02;   ///< over the radius: how the opened lumen rounds into one that is wider already
 };
 

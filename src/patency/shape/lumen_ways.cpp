@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinity = Bounds::infinity;
 constexpr std::size_t most_cells = 3'000'000;   // of one size: a second or two; throats of 0.1 mm in a coronary tree
-constexpr int most_levels = 14;                  // so that a cell's place and level fit 64 bits
+constexpr int most_levels = 14;                 // so that a cell's place and level fit 64 bits
 
 /// A cell of the cube around the lumen, halved `level` times.
 struct Cell {

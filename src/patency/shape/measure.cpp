@@ -60,7 +60,7 @@ private:
     double band_;   // the half width over which a step is smooth: three cells, so that cells do not show
 };
 
-}  // namespace
+}   // namespace
 
 Measures measure(const Lumen& whole, double resolution) {
     Lumen lumen = whole;
@@ -69,7 +69,8 @@ Measures measure(const Lumen& whole, double resolution) {
     const auto cut_along = [&](const Vec3& axis, double period) {
         if (period <= 0) return;
         for (double side : {-1.0, 1.0})
-            lumen.openings.push_back({"", middle + 0.5 * side * period * axis, side * axis, 0, 0, norm(extent), false, 0});
+            lumen.openings.push_back(
+                {"", middle + 0.5 * side * period * axis, side * axis, 0, 0, norm(extent), false, 0});
     };
     cut_along({1, 0, 0}, lumen.period.x);
     cut_along({0, 1, 0}, lumen.period.y);
@@ -81,8 +82,9 @@ Measures measure(const Lumen& whole, double resolution) {
     Subdivision cells(lumen, resolution);
     for (double x = box.low.x; x < box.high.x; x += 2 * half)
         for (double y = box.low.y; y < box.high.y; y += 2 * half)
-            for (double z = box.low.z; z < box.high.z; z += 2 * half) cells.add(Vec3{x + half, y + half, z + half}, half);
+            for (double z = box.low.z; z < box.high.z; z += 2 * half)
+                cells.add(Vec3{x + half, y + half, z + half}, half);
     return cells.result;
 }
 
-}  // namespace patency
+}   // namespace patency

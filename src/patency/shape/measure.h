@@ -22,4 +22,4 @@ Measures measure(const Lumen& lumen, double resolution);
 /// volume below a distance, summed over places in space, comes out right although the area changes with the distance.
 double smooth_step(double t);
 
-}  // namespace patency
+}   // namespace patency

@@ -44,8 +44,10 @@ void expect_tube(const Tube& tube) {
         if (!(tube.radii[k] > 0) || !std::isfinite(tube.radii[k]))
             refuse(fmt::format("has a radius of {:g} m at its point {}: it must be positive.", tube.radii[k], k + 1));
         if (tube.radii[k] < smallest_radius)
-            refuse(fmt::format("has a radius of {:g} m at its point {}, which is narrower than any vessel: check the file and its unit.",
-                               tube.radii[k], k + 1));
+            refuse(
+                fmt::format("has a radius of {:g} m at its point {}, which is narrower than any vessel: check the file "
+                            "and its unit.",
+                            tube.radii[k], k + 1));
         if (k > 0 && x == tube.points[k - 1])
             refuse(fmt::format("has the same place twice, as its points {} and {}: take one out.", k, k + 1));
     }

@@ -8,7 +8,7 @@ namespace patency {
 
 namespace {
 
-constexpr double largest_jump = 1.5;    // the radius, and so the field, may jump where two pieces are equally near
+constexpr double largest_jump = 1.5;   // the radius, and so the field, may jump where two pieces are equally near
 
 }   // namespace
 

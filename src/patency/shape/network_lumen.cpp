@@ -52,10 +52,11 @@ void expect_not_too_fine(const Network& network, double cell) {
     constexpr double per_cell = 3;   // triangles per square of a cell's side, whichever way the wall lies
     const double triangles = per_cell * wall / (cell * cell);
     if (triangles < most_triangles) return;
-    throw GeometryError(fmt::format(
-        "The network's wall of {:.3g} mm^2 would be {:.2g} triangles of {:.3g} mm, which are too many. Its narrowest diameter is {:.3g} mm: "
-        "is one of its points or radii wrong?",
-        1e6 * wall, triangles, 1e3 * cell, 1e3 * narrowest_diameter(network)));
+    throw GeometryError(
+        fmt::format("The network's wall of {:.3g} mm^2 would be {:.2g} triangles of {:.3g} mm, which are too many. Its "
+                    "narrowest diameter is {:.3g} mm: "
+                    "is one of its points or radii wrong?",
+                    1e6 * wall, triangles, 1e3 * cell, 1e3 * narrowest_diameter(network)));
 }
 
 /// Of the network continued past its openings, all around.
@@ -141,7 +142,8 @@ Lumen make_network_lumen(const Network& network, double extension, double resolu
     constexpr double voxels_outside =
         14;   // of the resolution: a wall for the kernels of particles twice as wide apart
     SignedDistance distance = made_when_asked(
-        [surface, resolution] { return make_surface_distance(surface, resolution, voxels_outside * resolution); }, bounds(surface));
+        [surface, resolution] { return make_surface_distance(surface, resolution, voxels_outside * resolution); },
+        bounds(surface));
     SignedDistance exact = made_when_asked([surface] { return make_exact_distance(surface); }, bounds(surface));
     cut_openings(surface, openings, cell, extension);
     const Surface wall = wall_of(surface);

@@ -59,7 +59,8 @@ bool is_odd(const Ray& ray, const Surface& surface, const TriangleTree& tree) {
 
 bool is_enclosed(const Surface& surface, const TriangleTree& tree, const Vec3& x) {
     // Along no axis, no diagonal: models of vessels have sides there.
-    constexpr std::array<Vec3, 3> directions{Vec3{0.4361, 0.7123, 0.5497}, Vec3{-0.8017, 0.3359, 0.4943}, Vec3{0.2713, -0.5231, 0.8079}};
+    constexpr std::array<Vec3, 3> directions{Vec3{0.4361, 0.7123, 0.5497}, Vec3{-0.8017, 0.3359, 0.4943},
+                                             Vec3{0.2713, -0.5231, 0.8079}};
     int inside = 0;
     for (const Vec3& direction : directions) inside += is_odd({x, direction}, surface, tree);
     return inside >= 2;

@@ -99,7 +99,8 @@ LumenCandidates find_candidates(const Lumen& lumen, const Lattice& lattice, cons
         for (const Opening& opening : lumen.openings) {
             if (share == 0) break;
             const auto [s, radial] = opening_coordinates(opening, x);
-            if (s > -band && s < lumen.extension + 2 * opening.reach + outermost && norm(radial) < opening.reach + outermost)
+            if (s > -band && s < lumen.extension + 2 * opening.reach + outermost &&
+                norm(radial) < opening.reach + outermost)
                 share *= smooth_step(-s / band);
         }
         found.cells_within_thickness += share;
@@ -149,15 +150,17 @@ std::vector<double> wall_volumes(const Lumen& lumen, double thickness, double wi
     return volumes;
 }
 
-}  // namespace
+}   // namespace
 
 Lattice fitted_lattice(const Lumen& lumen, double spacing) {
     if (!(spacing > 0) || !std::isfinite(spacing))
         throw GeometryError(fmt::format("The particle spacing is {} m: it must be positive and finite.", spacing));
     Vec3 cell{stretched(spacing, lumen.fit.x), stretched(spacing, lumen.fit.y), stretched(spacing, lumen.fit.z)};
-    const int free_axes = (lumen.fit.x > 0 ? 0 : 1) + (lumen.fit.y > 0 ? 0 : 1) + (lumen.planar || lumen.fit.z > 0 ? 0 : 1);
+    const int free_axes =
+        (lumen.fit.x > 0 ? 0 : 1) + (lumen.fit.y > 0 ? 0 : 1) + (lumen.planar || lumen.fit.z > 0 ? 0 : 1);
     const double volume = lumen.planar ? cell.x * cell.y : cell.x * cell.y * cell.z;
-    if (free_axes > 0 && lumen.volume > 0 && std::isfinite(lumen.volume)) {   // a whole number of cells makes up the volume
+    if (free_axes > 0 && lumen.volume > 0 &&
+        std::isfinite(lumen.volume)) {   // a whole number of cells makes up the volume
         const double whole = lumen.volume / std::max(1.0, std::round(lumen.volume / volume));
         const double factor = std::pow(whole / volume, 1.0 / free_axes);
         if (!(lumen.fit.x > 0)) cell.x *= factor;
@@ -215,17 +218,18 @@ FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const Points
         const std::size_t k = part == 0 ? 0 : (part - 1) / 2;
         const bool filler = part > 0 && part % 2 == 0;
         const double volume = part == 0 ? lumen.volume
-                                        : lumen.openings[k].area * (filler ? result.wall_end[k] - result.fluid_end[k]
-                                                                           : result.fluid_end[k]);
+                                        : lumen.openings[k].area *
+                                              (filler ? result.wall_end[k] - result.fluid_end[k] : result.fluid_end[k]);
         const auto inside = std::size_t(std::llround(volume / result.volume));
         const std::size_t all = std::isinf(shell[part])
                                     ? of_part[part].size()
                                     : std::size_t(std::llround((volume + shell[part]) / result.volume));
         std::vector<std::size_t>& by_depth = of_part[part];
         if (by_depth.size() < inside)
-            throw GeometryError(fmt::format("A spacing of {:.3g} m gives {} points where {} are needed: the lumen is "
-                                            "too narrow for it; take a smaller spacing.",
-                                            spacing, by_depth.size(), inside));
+            throw GeometryError(
+                fmt::format("A spacing of {:.3g} m gives {} points where {} are needed: the lumen is "
+                            "too narrow for it; take a smaller spacing.",
+                            spacing, by_depth.size(), inside));
         // The deepest ones, in lattice order, for neighbours in space to be neighbours in memory.
         const std::size_t end = std::min(all, by_depth.size());
         const auto deepest_first = [&candidates = candidates](std::size_t a, std::size_t b) {
@@ -243,4 +247,4 @@ FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const Points
     return result;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -43,7 +43,7 @@ struct PointsExtent {
 
 /// Points for the fluid and the wall.
 struct FittedPoints {
-    std::vector<Vec3> fluid;                ///< those of the lumen, then those past opening 0, 1, ..
+    std::vector<Vec3> fluid;   ///< those of the lumen, then those past opening 0, 1, ..
     std::vector<Vec3> wall;
     std::vector<Vec3> filler;               ///< inside, past the fluid's end, as far as the wall: for relaxation only
     std::vector<std::size_t> fluid_count;   ///< in the lumen, past opening 0, past opening 1, ..
@@ -58,4 +58,4 @@ struct FittedPoints {
 /// Throws GeometryError if the lumen is too narrow to have that many.
 FittedPoints make_fitted_points(const Lumen& lumen, double spacing, const PointsExtent& extent);
 
-}  // namespace patency
+}   // namespace patency

@@ -14,7 +14,7 @@ namespace {
 Vec3 smaller(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3 larger(const Vec3& a, const Vec3& b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
-}  // namespace
+}   // namespace
 
 Bounds joined(const Bounds& a, const Bounds& b) { return {smaller(a.low, b.low), larger(a.high, b.high)}; }
 Bounds common(const Bounds& a, const Bounds& b) { return {larger(a.low, b.low), smaller(a.high, b.high)}; }
@@ -124,4 +124,4 @@ SignedDistance moved(SignedDistance a, const RigidMotion& motion) {
             bounds};
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -18,9 +18,9 @@ struct Bounds {
     Vec3 low{-infinity, -infinity, -infinity};
     Vec3 high{infinity, infinity, infinity};
 };
-Bounds joined(const Bounds& a, const Bounds& b);     ///< the smallest box around both
-Bounds common(const Bounds& a, const Bounds& b);     ///< what both share
-Bounds grown(const Bounds& a, double margin);        ///< margin [m] more on every side
+Bounds joined(const Bounds& a, const Bounds& b);   ///< the smallest box around both
+Bounds common(const Bounds& a, const Bounds& b);   ///< what both share
+Bounds grown(const Bounds& a, double margin);      ///< margin [m] more on every side
 
 /// x -> origin + rotation x: a rigid motion from a shape's own frame to the world's.
 struct RigidMotion {
@@ -31,9 +31,7 @@ struct RigidMotion {
     Vec3 turn(const Vec3& direction) const { return rotation * direction; }
     Vec3 place_back(const Vec3& x) const { return transpose(rotation) * (x - origin); }
     /// First inner, then this.
-    RigidMotion after(const RigidMotion& inner) const {
-        return {rotation * inner.rotation, place(inner.origin)};
-    }
+    RigidMotion after(const RigidMotion& inner) const { return {rotation * inner.rotation, place(inner.origin)}; }
 };
 /// The motion that carries the x axis to direction (any length > 0) and the origin to origin [m].
 RigidMotion motion_along(const Vec3& direction, const Vec3& origin);
@@ -42,9 +40,9 @@ Bounds moved(const Bounds& bounds, const RigidMotion& motion);
 
 /// What a signed distance says about one place.
 struct DistanceSample {
-    double value = 0;      ///< distance to the wall [m], negative inside
-    Vec3 gradient{};       ///< unit vector out of the lumen; on the medial axis one of the possible ones
-    double curvature = 0;  ///< Laplacian of the distance [1/m]: 1/r for a tube at radius r, 0 for a plane
+    double value = 0;       ///< distance to the wall [m], negative inside
+    Vec3 gradient{};        ///< unit vector out of the lumen; on the medial axis one of the possible ones
+    double curvature = 0;   ///< Laplacian of the distance [1/m]: 1/r for a tube at radius r, 0 for a plane
 };
 
 class SignedDistance {
@@ -97,4 +95,4 @@ SignedDistance offset_by(SignedDistance a, double distance);
 /// a after a rigid motion.
 SignedDistance moved(SignedDistance a, const RigidMotion& motion);
 
-}  // namespace patency
+}   // namespace patency

@@ -69,7 +69,8 @@ std::vector<Ball> find_balls(const Lumen& lumen, double least) {
     const BallSearch search(lumen.distance, least);
     for_each_task(found.size(), [&](std::size_t n) {
         const std::size_t i = n / (ny * nz), j = n / nz % ny, k = n % nz;
-        search.add(lumen.bounds.low + side * Vec3{double(i) + 0.5, double(j) + 0.5, double(k) + 0.5}, 0.5 * side, found[n]);
+        search.add(lumen.bounds.low + side * Vec3{double(i) + 0.5, double(j) + 0.5, double(k) + 0.5}, 0.5 * side,
+                   found[n]);
     });
     std::vector<Ball> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
@@ -202,7 +203,8 @@ void SpacingField::Grid::limit_growth(double growth) {
                 const auto is_inner = [](int at) { return (at & 7) > 0 && (at & 7) < 7; };
                 if (is_inner(i) && is_inner(j) && is_inner(k)) {   // all in one brick
                     for (const auto& [e, rise] : before)
-                        least = std::min(least, (&nodes_[m])[std::ptrdiff_t(side) * (64 * e[0] + 8 * e[1] + e[2])] + rise);
+                        least =
+                            std::min(least, (&nodes_[m])[std::ptrdiff_t(side) * (64 * e[0] + 8 * e[1] + e[2])] + rise);
                 } else {
                     for (const auto& [e, rise] : before)
                         if (const float* other = find(i + side * e[0], j + side * e[1], k + side * e[2]))
@@ -244,7 +246,8 @@ double least_radius(const SpacingSettings& settings) { return 0.5 * settings.acr
 
 }   // namespace
 
-SpacingField make_spacing_field(const Lumen& lumen, std::span<const InscribedBall> balls, const SpacingSettings& settings) {
+SpacingField make_spacing_field(const Lumen& lumen, std::span<const InscribedBall> balls,
+                                const SpacingSettings& settings) {
     expect_sensible(lumen, settings);
     const double least = least_radius(settings);
     std::vector<Ball> wide;
@@ -254,7 +257,8 @@ SpacingField make_spacing_field(const Lumen& lumen, std::span<const InscribedBal
         throw GeometryError("The lumen is narrower everywhere than four of the smallest spacings: take smaller ones.");
     SpacingField field;
     field.settings_ = settings;
-    field.grid_ = std::make_shared<const SpacingField::Grid>(thinned(std::move(wide), least, lumen.bounds.low), 1.5 * least, settings);
+    field.grid_ = std::make_shared<const SpacingField::Grid>(thinned(std::move(wide), least, lumen.bounds.low),
+                                                             1.5 * least, settings);
     return field;
 }
 

@@ -44,7 +44,8 @@ private:
 /// quarter of the diameter that has the smallest spacing, linear in between; ways count along the grid, which are up to 9 %
 /// longer than straight ones. The same bits for any number of threads. Throws GeometryError for settings that make no sense,
 /// and for planar and periodic lumens.
-SpacingField make_spacing_field(const Lumen& lumen, std::span<const InscribedBall> balls, const SpacingSettings& settings);
+SpacingField make_spacing_field(const Lumen& lumen, std::span<const InscribedBall> balls,
+                                const SpacingSettings& settings);
 /// Of all the balls that fit into the lumen and its straight continuations, which takes a while to find out; those around
 /// a vessel's centrelines are known.
 SpacingField make_spacing_field(const Lumen& lumen, const SpacingSettings& settings);

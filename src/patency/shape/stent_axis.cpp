@@ -154,7 +154,8 @@ StentAxis::Sight StentAxis::sight(const Vec3& x, std::size_t& piece) const {
         if (part >= 0 && part <= 1) {
             const Station &a = stations_[piece], &b = stations_[piece + 1];
             const Vec3 away = x - a.at - part * (b.at - a.at);
-            return from(norm(away), away, normalized(a.tangent + part * (b.tangent - a.tangent)), a.along + part * (b.along - a.along));
+            return from(norm(away), away, normalized(a.tangent + part * (b.tangent - a.tangent)),
+                        a.along + part * (b.along - a.along));
         }
         if (part < 0 && piece == 0) return past_end(stations_.front());
         if (part > 1 && piece == last) return past_end(stations_.back());
@@ -179,7 +180,8 @@ StentPoint StentAxis::coordinates(const Vec3& x) const {
 
 StentPoint StentAxis::coordinates(const Vec3& x, double along) const {
     const std::size_t piece = piece_at(along);
-    const Foot foot = nearest_foot(x, piece - std::min<std::size_t>(piece, 2), std::min(piece + 3, stations_.size() - 1));
+    const Foot foot =
+        nearest_foot(x, piece - std::min<std::size_t>(piece, 2), std::min(piece + 3, stations_.size() - 1));
     return foot.distance < Bounds::infinity ? seen_from(x, foot.along) : coordinates(x);
 }
 

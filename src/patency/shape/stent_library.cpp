@@ -25,7 +25,8 @@ const std::vector<StentDesign>& stent_library() {
          "2.0 mm x 10 mm, struts of 100 um: six rings of six crowns, three straight connectors per gap",
          "outer diameter 2.0 mm, length 10 mm, opened to 3.3 mm, struts of 80 to 150 um: the reference paper, table V "
          "and "
-         "section IV.C; the paper gives no pattern: ours has six rings, which shorten by 7 % when they open, eight would by 15 %",
+         "section IV.C; the paper gives no pattern: ours has six rings, which shorten by 7 % when they open, eight "
+         "would by 15 %",
          {.layout = rings,
           .rings = 6,
           .crowns = 6,

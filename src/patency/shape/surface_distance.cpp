@@ -65,8 +65,8 @@ private:
 Bricks::Bricks(const std::vector<BrickOrigin>& bricks, const Vec3& origin, double voxel, double farthest)
     : origin_(origin), voxel_(voxel), farthest_(farthest) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto [least, most] = std::minmax_element(
-            bricks.begin(), bricks.end(), [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+        const auto [least, most] = std::minmax_element(bricks.begin(), bricks.end(),
+                                                       [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
         low_[axis] = (*least)[axis] >> 3;
         count_[axis] = ((*most)[axis] >> 3) - low_[axis] + 1;
     }
@@ -90,8 +90,7 @@ void Bricks::compute_gradients(const std::vector<BrickOrigin>& bricks) {
     };
     for_each_index(bricks.size(), [&](std::size_t b) {
         for (int n = 0; n < cells; ++n) {
-            const Index i = bricks[b][0] + (n >> 6), j = bricks[b][1] + ((n >> 3) & 7),
-                        k = bricks[b][2] + (n & 7);
+            const Index i = bricks[b][0] + (n >> 6), j = bricks[b][1] + ((n >> 3) & 7), k = bricks[b][2] + (n & 7);
             Corner& here = corners_[b * cells + n];
             here.gx = slope(here, find(i - 1, j, k), find(i + 1, j, k));
             here.gy = slope(here, find(i, j - 1, k), find(i, j + 1, k));
@@ -148,7 +147,11 @@ DistanceSample Bricks::sample(const Vec3& x) const {
 class CornerDistances {
 public:
     CornerDistances(const Surface& surface, const Vec3& origin, double voxel, double farthest)
-        : surface_(surface), origin_(origin), voxel_(voxel), farthest_(farthest), tree_(surface),
+        : surface_(surface),
+          origin_(origin),
+          voxel_(voxel),
+          farthest_(farthest),
+          tree_(surface),
           sides_(surface, origin, voxel) {}
 
     /// All bricks with a corner inside or less than `farthest` outside.
@@ -186,7 +189,8 @@ std::vector<BrickOrigin> CornerDistances::find_bricks() const {
     const std::array<std::int32_t, 3> high{brick_at(box.high.x, origin_.x), brick_at(box.high.y, origin_.y),
                                            brick_at(box.high.z, origin_.z)};
     std::array<std::size_t, 3> groups;
-    for (std::size_t axis = 0; axis < 3; ++axis) groups[axis] = std::size_t(high[axis] - low[axis]) / std::size_t(group) + 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        groups[axis] = std::size_t(high[axis] - low[axis]) / std::size_t(group) + 1;
     std::vector<std::vector<BrickOrigin>> found(groups[0] * groups[1]);
     for_each_task(found.size(), [&](std::size_t column) {
         const auto a = std::int32_t(column / groups[1]), b = std::int32_t(column % groups[1]);
@@ -196,7 +200,8 @@ std::vector<BrickOrigin> CornerDistances::find_bricks() const {
             if (!is_wanted(first, group * brick_size)) continue;
             for (std::int32_t n = 0; n < group * group * group; ++n) {
                 const BrickOrigin brick{first[0] + brick_size * (n / (group * group)),
-                                        first[1] + brick_size * (n / group % group), first[2] + brick_size * (n % group)};
+                                        first[1] + brick_size * (n / group % group),
+                                        first[2] + brick_size * (n % group)};
                 if (is_wanted(brick, brick_size)) found[column].push_back(brick);
             }
         }
@@ -322,8 +327,7 @@ SignedDistance make_surface_distance(const Surface& closed, double voxel, double
 
     const Bounds box = bounds(closed);
     // Two voxels more, for the corners around a place at `outside` and their slopes.
-    const auto bricks =
-        std::make_shared<const Bricks>(make_bricks(closed, box.low, voxel, outside + 2 * voxel));
+    const auto bricks = std::make_shared<const Bricks>(make_bricks(closed, box.low, voxel, outside + 2 * voxel));
     return {[bricks](const Vec3& x) { return bricks->sample(x); }, box};
 }
 

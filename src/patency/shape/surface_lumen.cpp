@@ -171,8 +171,10 @@ Lumen make_surface_lumen(const CheckedSurface& checked, std::span<const SurfaceO
     expect_room(surface, planes, own, openings, settings);
     const Bounds box = bounds(surface);
     lumen.exact = made_when_asked([surface] { return make_exact_distance(surface); }, box);
-    lumen.distance = made_when_asked(
-        [closed = std::move(surface), settings] { return make_surface_distance(closed, settings.voxel, settings.outside); }, box);
+    lumen.distance =
+        made_when_asked([closed = std::move(surface),
+                         settings] { return make_surface_distance(closed, settings.voxel, settings.outside); },
+                        box);
     return lumen;
 }
 

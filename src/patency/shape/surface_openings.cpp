@@ -19,14 +19,16 @@ namespace patency {
 namespace {
 
 // What a flat face that closes an end is.
-constexpr double coplanar_degrees = 2;      // between neighbours of one face; what rounding in files leaves is below
-constexpr double crease_degrees = 30;       // at its rim; a tube's facets meet at less, a cap cut across it at about 90
-constexpr double crease_share = 0.9;        // of the rim that must be so sharp
-constexpr double largest_flatness = 0.02;   // of the diameter; a face with an id or a crease of its own may be cut by hand or bent
+constexpr double coplanar_degrees = 2;   // between neighbours of one face; what rounding in files leaves is below
+constexpr double crease_degrees = 30;    // at its rim; a tube's facets meet at less, a cap cut across it at about 90
+constexpr double crease_share = 0.9;     // of the rim that must be so sharp
+constexpr double largest_flatness =
+    0.02;   // of the diameter; a face with an id or a crease of its own may be cut by hand or bent
 constexpr double largest_bent_flatness = 0.1;
-constexpr double smallest_roundness = 0.7;     // an ellipse cut at 60 degrees has 0.84, a square 0.79, a triangle 0.60
-constexpr double smallest_flat_share = 0.95;   // |sum of area vectors| / area of a face with an id or a crease: a tube's is 0
-constexpr std::size_t fewest_edges = 4;        // a triangle is part of a wall
+constexpr double smallest_roundness = 0.7;   // an ellipse cut at 60 degrees has 0.84, a square 0.79, a triangle 0.60
+constexpr double smallest_flat_share =
+    0.95;   // |sum of area vectors| / area of a face with an id or a crease: a tube's is 0
+constexpr std::size_t fewest_edges = 4;   // a triangle is part of a wall
 
 constexpr double smallest_inlet = 0.5e-3,
                  largest_inlet = 40e-3;   // m: below a coronary branch, above an aneurysm's aorta
@@ -143,7 +145,8 @@ std::vector<SurfaceOpening> find_flat_regions(const Surface& surface, const std:
         const auto belong_together = [&](auto a, auto b) { return dot(normals[a], normals[b]) > cosine(degrees); };
         for (const Face& face : find_faces(surface, uses, belong_together)) {
             if (face.rim.size() < fewest_edges || norm(face.area_sum) < flat_share * face.area) continue;
-            if (std::any_of(face.triangles.begin(), face.triangles.end(), [&](std::uint32_t t) { return is_taken[t]; })) continue;
+            if (std::any_of(face.triangles.begin(), face.triangles.end(), [&](std::uint32_t t) { return is_taken[t]; }))
+                continue;
             const FlatLoop loop = rim_of(surface, face);
             if (!closes_an_end(loop, flatness) || !has_sharp_rim(surface, face, loop)) continue;
             openings.push_back(make_opening(loop));
@@ -203,7 +206,8 @@ void choose_inlet(std::vector<SurfaceOpening>& openings, std::string_view name_o
 
 void rename_openings(std::vector<SurfaceOpening>& openings, const std::map<std::string, std::string>& names) {
     for (const auto& [found, own] : names)
-        if (std::none_of(openings.begin(), openings.end(), [&found = found](const SurfaceOpening& o) { return o.opening.name == found; }))
+        if (std::none_of(openings.begin(), openings.end(),
+                         [&found = found](const SurfaceOpening& o) { return o.opening.name == found; }))
             throw UsageError(fmt::format("there is no opening '{}' to be named", shortened(found)));
     for (SurfaceOpening& o : openings)
         if (const auto own = names.find(o.opening.name); own != names.end()) o.opening.name = own->second;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/shape/surface_voxels.h"
 
+#include <omp.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
-#include <omp.h>
 #include <tbb/global_control.h>
 
 #include <mutex>
-
 
 namespace patency {
 

@@ -9,7 +9,6 @@ namespace patency {
 
 namespace {
 
-
 Vec3 middle_of(const Bounds& box) { return 0.5 * (box.low + box.high); }
 
 double square_to_box(const Vec3& x, const Bounds& box) {
@@ -89,7 +88,8 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& x, double bound) const {
             for (std::uint32_t k = node.begin; k < node.end; ++k) {
                 if (square_to_box(x, boxes_[order_[k]]) >= best.square) continue;
                 const auto& [a, b, c] = surface_.triangles[order_[k]];
-                const Vec3 place = nearest_place(x, surface_.points[a], surface_.points[b], surface_.points[c]), d = x - place;
+                const Vec3 place = nearest_place(x, surface_.points[a], surface_.points[b], surface_.points[c]),
+                           d = x - place;
                 if (dot(d, d) < best.square) best = {dot(d, d), place};
             }
             continue;

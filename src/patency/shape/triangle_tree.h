@@ -21,7 +21,8 @@ public:
         bool is_leaf() const { return left == right; }
     };
 
-    static constexpr std::uint32_t leaf_size = 4;   ///< triangles at most: fewer make the tree deep, more are compared in vain
+    static constexpr std::uint32_t leaf_size =
+        4;   ///< triangles at most: fewer make the tree deep, more are compared in vain
 
     explicit TriangleTree(const Surface& surface);
 

@@ -17,7 +17,8 @@ public:
     Part(const BranchedLines& lines, const WallSettings& settings) : lines_(lines) {
         for (std::size_t j = 0; j < lines.lines.size(); ++j) {
             has_.emplace_back();
-            for (std::size_t k = 0; k < lines.lines[j].points.size(); ++k) has_[j].push_back(way_to(j, k, settings) <= settings.reach);
+            for (std::size_t k = 0; k < lines.lines[j].points.size(); ++k)
+                has_[j].push_back(way_to(j, k, settings) <= settings.reach);
         }
         while (take_bifurcations()) {}
     }
@@ -53,14 +54,17 @@ private:
                     if (reached.size() <= std::size_t(b)) reached.resize(std::size_t(b) + 1);
                     reached[std::size_t(b)] = 1;
                 }
-        const auto is_reached = [&](int b) { return b >= 0 && std::size_t(b) < reached.size() && reached[std::size_t(b)]; };
+        const auto is_reached = [&](int b) {
+            return b >= 0 && std::size_t(b) < reached.size() && reached[std::size_t(b)];
+        };
         bool is_new = false;
         for (std::size_t j = 0; j < has_.size(); ++j) {
             const auto& points = lines_.lines[j].points;
             for (std::size_t k = 0; k < points.size(); ++k) {
                 if (!is_reached(bifurcation(j, k))) continue;
                 for (std::size_t m = 0; m < points.size(); ++m)
-                    if (!has_[j][m] && std::abs(points[m].arc - points[k].arc) <= 2 * points[k].radius) has_[j][m] = 1, is_new = true;
+                    if (!has_[j][m] && std::abs(points[m].arc - points[k].arc) <= 2 * points[k].radius)
+                        has_[j][m] = 1, is_new = true;
             }
         }
         return is_new;
@@ -75,14 +79,15 @@ struct Station {
     Vec3 place;
     double radius, thickness;   // of the healthy lumen, of its wall
     bool is_inside;
-    int end;                    // index of an end within two diameters along the line, or -1
+    int end;                           // index of an end within two diameters along the line, or -1
     std::vector<std::size_t> next{};   // stations beside it along the lines, to one side
 };
 
 /// To the spheres between two that are given, their radii linear between: the round cone around both.
 double distance_to_cone(const Vec3& x, const Station& a, const Station& b) {
     const Vec3 axis = b.place - a.place, d = x - a.place;
-    const double length = norm(axis), along = dot(d, axis) / length, across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
+    const double length = norm(axis), along = dot(d, axis) / length,
+                 across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
     const double slope = std::clamp((b.radius - a.radius) / length, -0.99, 0.99);   // sine of half the cone's angle
     const double t = std::clamp((along + across * slope / std::sqrt(1 - slope * slope)) / length, 0.0, 1.0);
     return std::hypot(along - t * length, across) - (1 - t) * a.radius - t * b.radius;
@@ -92,8 +97,8 @@ double distance_to_cone(const Vec3& x, const Station& a, const Station& b) {
 
 class WallField::Impl {
 public:
-    Impl(const BranchedLines& lines, const std::vector<std::vector<double>>& healthy, const std::vector<Vec3>& opening_normals, SignedDistance lumen,
-         const WallSettings& settings)
+    Impl(const BranchedLines& lines, const std::vector<std::vector<double>>& healthy,
+         const std::vector<Vec3>& opening_normals, SignedDistance lumen, const WallSettings& settings)
         : lumen_(std::move(lumen)) {
         if (settings.thickness && !(*settings.thickness > 0)) throw GeometryError("A wall must have a thickness.");
         const Part part(lines, settings);
@@ -106,13 +111,15 @@ public:
                     before = none;
                     continue;
                 }
-                const double radius = 0.5 * healthy[j][k], thickness = settings.thickness.value_or(coronary_wall_thickness(2 * radius));
+                const double radius = 0.5 * healthy[j][k],
+                             thickness = settings.thickness.value_or(coronary_wall_thickness(2 * radius));
                 const std::size_t at = add_station({points[k].place, radius, thickness, part.has(j, k), end[k]});
                 if (before != none && at > before) stations_[at].next.push_back(before);
                 before = at;
                 if (!part.has(j, k)) continue;
                 thinnest_ = std::min(thinnest_, thickness);
-                const Vec3 out = (2 * std::max(radius, points[k].radius) + thickness) * Vec3{1, 1, 1};   // eccentric lumens too
+                const Vec3 out =
+                    (2 * std::max(radius, points[k].radius) + thickness) * Vec3{1, 1, 1};   // eccentric lumens too
                 const Bounds box{points[k].place - out, points[k].place + out};
                 bounds_ = is_empty_ ? box : joined(bounds_, box);
                 is_empty_ = false;
@@ -135,7 +142,8 @@ public:
                 sum += w * s.thickness, weights += w;
             }
             if (is_filled_ && over < 0.5 * s.radius)
-                for (const std::size_t next : s.next) healthy = std::min(healthy, distance_to_cone(x, s, stations_[next]));
+                for (const std::size_t next : s.next)
+                    healthy = std::min(healthy, distance_to_cone(x, s, stations_[next]));
         }
         const DistanceSample lumen = lumen_.sample(x);
         WallPlace place{lumen.value, 0, sum / weights, 0, lumen.gradient, {}};
@@ -176,7 +184,8 @@ private:
     }
 
     /// Per point of the line the end that is near it, or -1.
-    std::vector<int> find_ends(const BranchedLines& lines, const Part& part, const std::vector<std::vector<double>>& healthy, const std::vector<Vec3>& normals,
+    std::vector<int> find_ends(const BranchedLines& lines, const Part& part,
+                               const std::vector<std::vector<double>>& healthy, const std::vector<Vec3>& normals,
                                std::size_t j) {
         const auto& points = lines.lines[j].points;
         const std::size_t n = points.size();
@@ -186,7 +195,8 @@ private:
             const double radius = 0.5 * healthy[j][k];
             const int e = add_end({points[k].place, normal, radius, is_opening});
             for (std::size_t m = 0; m < n; ++m)
-                if (const double w = std::abs(points[m].arc - points[k].arc); w < std::min(way[m], 4 * radius)) near[m] = e, way[m] = w;
+                if (const double w = std::abs(points[m].arc - points[k].arc); w < std::min(way[m], 4 * radius))
+                    near[m] = e, way[m] = w;
         };
         for (std::size_t k = 0; k + 1 < n; ++k) {
             if (part.has(j, k) && !part.has(j, k + 1)) add(k, points[k].tangent, false);
@@ -206,8 +216,8 @@ private:
     bool is_empty_ = true;
 };
 
-WallField::WallField(const BranchedLines& lines, const std::vector<std::vector<double>>& healthy_diameter, const std::vector<Vec3>& opening_normals,
-                     SignedDistance lumen, const WallSettings& settings)
+WallField::WallField(const BranchedLines& lines, const std::vector<std::vector<double>>& healthy_diameter,
+                     const std::vector<Vec3>& opening_normals, SignedDistance lumen, const WallSettings& settings)
     : impl_(std::make_shared<const Impl>(lines, healthy_diameter, opening_normals, std::move(lumen), settings)) {}
 
 WallPlace WallField::at(const Vec3& x) const { return impl_->at(x); }
@@ -221,11 +231,13 @@ SignedDistance WallField::wall() const {
     return {[field = *this, step = 1e-3 * thinnest()](const Vec3& x) {
                 const WallPlace p = field.at(x);
                 const double outer = std::min(p.lumen, p.healthy) - p.thickness;
-                if (p.region >= std::max(-p.lumen, outer) && norm(p.past_end) > 0) return DistanceSample{p.region, p.past_end, 0};
+                if (p.region >= std::max(-p.lumen, outer) && norm(p.past_end) > 0)
+                    return DistanceSample{p.region, p.past_end, 0};
                 if (-p.lumen >= outer) return DistanceSample{std::max(-p.lumen, p.region), -p.from_lumen, 0};
                 if (p.lumen <= p.healthy) return DistanceSample{std::max(outer, p.region), p.from_lumen, 0};
                 const auto rise = [&](const Vec3& e) { return field.at(x + step * e).healthy - p.healthy; };
-                return DistanceSample{std::max(outer, p.region), normalized(Vec3{rise({1, 0, 0}), rise({0, 1, 0}), rise({0, 0, 1})}), 0};
+                return DistanceSample{std::max(outer, p.region),
+                                      normalized(Vec3{rise({1, 0, 0}), rise({0, 1, 0}), rise({0, 0, 1})}), 0};
             },
             bounds()};
 }

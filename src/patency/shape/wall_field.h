@@ -14,10 +14,12 @@ namespace patency {
 
 struct WallSettings {
     std::optional<double> thickness{};   ///< [m]; none: by the healthy lumen's diameter, THEORY (17.4)
-    bool is_filled = false;              ///< plaque fills what lies between the lumen and the healthy one; else the wall follows the lumen
-    std::size_t line = 0;                ///< the wall around this line,
-    double from = 0, to = 0;             ///< from and to these arcs [m],
-    double reach = 0;                    ///< and this much farther along every way [m], or to its opening, or past a bifurcation that is a diameter or less away
+    bool is_filled =
+        false;   ///< plaque fills what lies between the lumen and the healthy one; else the wall follows the lumen
+    std::size_t line = 0;      ///< the wall around this line,
+    double from = 0, to = 0;   ///< from and to these arcs [m],
+    double reach =
+        0;   ///< and this much farther along every way [m], or to its opening, or past a bifurcation that is a diameter or less away
 };
 
 /// Where a part of a vessel ends: a plane across it.
@@ -42,16 +44,16 @@ class WallField {
 public:
     /// healthy_diameter: per line and point (Assessment). lumen: exact outside, at least as far as the wall. openings: the inlet
     /// first, then one per line. Throws GeometryError for a thickness that is none.
-    WallField(const BranchedLines& lines, const std::vector<std::vector<double>>& healthy_diameter, const std::vector<Vec3>& opening_normals,
-              SignedDistance lumen, const WallSettings& settings);
+    WallField(const BranchedLines& lines, const std::vector<std::vector<double>>& healthy_diameter,
+              const std::vector<Vec3>& opening_normals, SignedDistance lumen, const WallSettings& settings);
 
     WallPlace at(const Vec3& x) const;
     /// Negative in the wall: outside of the lumen, inside of the outer face, within the part.
     double value(const Vec3& x) const;
-    SignedDistance wall() const;           ///< the same with its slope, that of the thickness left out
+    SignedDistance wall() const;   ///< the same with its slope, that of the thickness left out
     const std::vector<VesselEnd>& ends() const;
-    double thinnest() const;               ///< [m]
-    Bounds bounds() const;                 ///< around the part
+    double thinnest() const;   ///< [m]
+    Bounds bounds() const;     ///< around the part
     const SignedDistance& lumen() const;
 
 private:

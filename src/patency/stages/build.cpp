@@ -35,7 +35,8 @@ FlowNumerics make_numerics(const deck::Case& config, const Lumen& lumen) {
     numerics.spacing = config.numerics.spacing;
     if (config.numerics.follows_vessel()) {   // the widest there is
         const auto wide = [](const Opening& a, const Opening& b) { return a.radius < b.radius; };
-        numerics.spacing = 2 * std::max_element(lumen.openings.begin(), lumen.openings.end(), wide)->radius / *config.numerics.across;
+        numerics.spacing =
+            2 * std::max_element(lumen.openings.begin(), lumen.openings.end(), wide)->radius / *config.numerics.across;
     }
     numerics.smoothing_ratio = config.numerics.smoothing_ratio;
     numerics.planar = lumen.planar;
@@ -52,8 +53,9 @@ void make_ends(Scene& scene) {
         const deck::Opening& said = scene.config.openings.at(opening.name);
         // Fewer particles do not see a section; a profile would be noise.
         if (2 * opening.radius < 4 * dp && !scene.config.numerics.follows_vessel())
-            throw GeometryError(fmt::format("openings.{}: {:.3g} mm wide, less than 4 particles of numerics.spacing {:.3g} mm", opening.name,
-                                            2e3 * opening.radius, 1e3 * dp));
+            throw GeometryError(
+                fmt::format("openings.{}: {:.3g} mm wide, less than 4 particles of numerics.spacing {:.3g} mm",
+                            opening.name, 2e3 * opening.radius, 1e3 * dp));
         EndLaw law = make_end_law(opening, said, scene.config);
         OpenEnd end;
         end.name = opening.name;
@@ -66,7 +68,9 @@ void make_ends(Scene& scene) {
         end.buffer_length = buffer_spacings * dp;
         if (law.prescribes_flow()) {
             end.velocity = make_end_velocity(opening, said, law, scene.config.blood);
-            end.imposed_flow = [flow = make_end_flow(opening, said, law, scene.config.blood)](double time) { return -flow(time); };
+            end.imposed_flow = [flow = make_end_flow(opening, said, law, scene.config.blood)](double time) {
+                return -flow(time);
+            };
         }
         scene.ends.push_back(std::move(end));
         scene.laws.push_back(std::move(law));
@@ -77,7 +81,8 @@ std::unique_ptr<Frame> make_frame(const Scene& scene) {
     const Lumen& lumen = scene.lumen;
     const double dp = scene.numerics.spacing;
     const PointsExtent extent = extent_of(scene.numerics);
-    const double past = (lumen.openings.empty() ? 0 : extent.wall_extension) + extent.wall_thickness + margin_spacings * dp;
+    const double past =
+        (lumen.openings.empty() ? 0 : extent.wall_extension) + extent.wall_thickness + margin_spacings * dp;
     Bounds box = grown(lumen.bounds, past);
     const std::array<bool, 3> periodic{lumen.period.x > 0, lumen.period.y > 0, lumen.period.z > 0};
     if (periodic[0]) box.low.x = lumen.bounds.low.x, box.high.x = lumen.bounds.high.x;
@@ -91,7 +96,9 @@ std::unique_ptr<Frame> make_frame(const Scene& scene) {
 /// bit, and not nearly the same, of which particles soon make a different flow.
 void set_datum(Scene& scene) {
     // Levels that move or begin at zero, and what is asked for without a level, stay as they are.
-    if (scene.config.scheme() == deck::SchemeName::cells || scene.config.numerics.pressure_reference != deck::PressureReference::moving) return;
+    if (scene.config.scheme() == deck::SchemeName::cells ||
+        scene.config.numerics.pressure_reference != deck::PressureReference::moving)
+        return;
     double lowest = INFINITY;
     for (const auto& [name, opening] : scene.config.openings) {
         using deck::OpeningType;
@@ -112,7 +119,8 @@ void set_datum(Scene& scene) {
 void follow(Scene& scene) {
     scene.estimate = estimate_flow(scene.config, *scene.vessel);
     for (const Centreline& line : scene.vessel->along->lines.lines)
-        for (const CentrelinePoint& point : line.points) scene.lumen.narrowest = std::min(scene.lumen.narrowest, 2 * point.radius);
+        for (const CentrelinePoint& point : line.points)
+            scene.lumen.narrowest = std::min(scene.lumen.narrowest, 2 * point.radius);
 }
 
 /// Compliances begin as the estimate's flow would leave them, where the deck names no pressure.
@@ -129,13 +137,16 @@ void fill_compliances(Scene& scene) {
 
 Expected expect_flow(const Scene& scene) {
     Expected expected = estimate_expected(scene.config, scene.lumen, scene.laws, scene.material);
-    if (scene.estimate) expect_estimate(expected, scene.config, EstimatedField(*scene.vessel, *scene.estimate), scene.laws, scene.material);
+    if (scene.estimate)
+        expect_estimate(expected, scene.config, EstimatedField(*scene.vessel, *scene.estimate), scene.laws,
+                        scene.material);
     return expected;
 }
 
 /// Zero, or of the deck's wall that the particle belongs to.
 Vec3 wall_velocity(const deck::Wall& wall, const Vec3& normal) {
-    if (const auto named = wall.velocity.find(std::string(plane_wall_name(normal))); named != wall.velocity.end()) return named->second;
+    if (const auto named = wall.velocity.find(std::string(plane_wall_name(normal))); named != wall.velocity.end())
+        return named->second;
     if (const auto all = wall.velocity.find("all"); all != wall.velocity.end()) return all->second;
     return {};
 }
@@ -144,7 +155,8 @@ void expect_wall_names(const Scene& scene) {
     const auto& shape = scene.config.geometry.shape;
     const bool has_plane_walls = shape && (shape->is_planar() || shape->type == deck::ShapeType::box);
     for (const auto& [name, velocity] : scene.config.wall.velocity) {
-        const bool is_plane = name.size() > 2 && (name.ends_with("_low") || name.ends_with("_high")) && name[0] >= 'x' && name[0] <= 'z';
+        const bool is_plane =
+            name.size() > 2 && (name.ends_with("_low") || name.ends_with("_high")) && name[0] >= 'x' && name[0] <= 'z';
         if (name != "all" && !(has_plane_walls && is_plane))
             throw DeckError(fmt::format("wall.velocity.{}: the shape has no such wall; use all{}", name,
                                         has_plane_walls ? ", y_low, y_high (x_, z_ in boxes)" : ""));
@@ -153,7 +165,8 @@ void expect_wall_names(const Scene& scene) {
 
 void place_particles(Scene& scene) {
     const Lumen& lumen = scene.lumen;
-    const FittedPoints points = make_relaxed_points(lumen, scene.numerics.spacing, extent_of(scene.numerics), &scene.relax_quality);
+    const FittedPoints points =
+        make_relaxed_points(lumen, scene.numerics.spacing, extent_of(scene.numerics), &scene.relax_quality);
     if (points.fluid.empty()) throw GeometryError("no particle fits into the lumen: numerics.spacing is too large");
 
     FluidParticles& fluid = scene.fluid;
@@ -174,7 +187,8 @@ void place_particles(Scene& scene) {
         wall.position[w] = points.wall[w];
         wall.normal[w] = here.gradient;
         wall.depth[w] = here.value;
-        wall.curvature[w] = lumen.distance.curvature(points.wall[w] - here.value * here.gradient);   // of the surface itself
+        wall.curvature[w] =
+            lumen.distance.curvature(points.wall[w] - here.value * here.gradient);   // of the surface itself
         wall.velocity[w] = wall_velocity(scene.config.wall, here.gradient);
         wall.volume[w] = points.volume;
     }
@@ -194,7 +208,8 @@ void absorb_sound(Scene& scene) {
     const double c = scene.material.sound_speed, crossing = norm(scene.lumen.bounds.high - scene.lumen.bounds.low) / c;
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         const EndLaw& law = scene.laws[k];
-        const bool is_constant = law.outlet ? !std::holds_alternative<Coronary>(*law.outlet) : law.signal.waveform.is_constant() && law.signal.ramp == 0;
+        const bool is_constant = law.outlet ? !std::holds_alternative<Coronary>(*law.outlet)
+                                            : law.signal.waveform.is_constant() && law.signal.ramp == 0;
         if (!is_constant || (law.prescribes_flow() && law.signal(0) == 0)) continue;
         scene.ends[k].absorber = {.impedance = scene.material.density * c / scene.ends[k].area,
                                   .memory = (law.prescribes_flow() ? memory_at_flow : memory_at_pressure) * crossing,
@@ -202,7 +217,7 @@ void absorb_sound(Scene& scene) {
     }
 }
 
-}  // namespace
+}   // namespace
 
 std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known) {
     auto scene = std::make_unique<Scene>();
@@ -219,7 +234,8 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
     scene->numerics = make_numerics(config, scene->lumen);
     make_ends(*scene);
     const auto start = config.initial_pressure();
-    if (scene->estimate && (start == deck::InitialPressure::estimate || start == deck::InitialPressure::cells)) fill_compliances(*scene);
+    if (scene->estimate && (start == deck::InitialPressure::estimate || start == deck::InitialPressure::cells))
+        fill_compliances(*scene);
     const Expected expected = expect_flow(*scene);
     scene->numerics.reference_speed = expected.speed;
     scene->material.sound_speed = choose_sound_speed(config, scene->lumen, expected, scene->material);
@@ -240,4 +256,4 @@ std::unique_ptr<Scene> build_scene(const deck::Case& config) {
     return scene;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -20,4 +20,4 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
 /// How far blood is kept beyond an opening's plane [spacings]: the buffer.
 inline constexpr double buffer_spacings = 4;
 
-}  // namespace patency
+}   // namespace patency

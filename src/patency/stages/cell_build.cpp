@@ -34,7 +34,8 @@ deck::Case start_of(const deck::Case& config, const Scene& scene) {
         const double value = opening.waveform ? start_of(scene.laws[k]) : 0;
         if (opening.waveform && opening.type == deck::OpeningType::pressure) opening.pressure = value;
         if (opening.waveform && opening.type == deck::OpeningType::flow) opening.flow = value;
-        if (opening.waveform && opening.type == deck::OpeningType::velocity) opening.velocity = value / scene.ends[k].area;
+        if (opening.waveform && opening.type == deck::OpeningType::velocity)
+            opening.velocity = value / scene.ends[k].area;
         opening.waveform.reset();
         opening.ramp = 0;
         if (opening.profile == deck::VelocityProfile::womersley) opening.profile = deck::VelocityProfile::parabola;
@@ -47,10 +48,13 @@ std::vector<MarchedEnd> marched_ends(const Scene& scene, const Rheology& rheolog
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         const Opening& opening = scene.lumen.openings[k];
         const EndLaw& law = scene.laws[k];
-        const bool is_drawn = law.prescribes_flow() && law.signal.waveform.mean() < 0;   // blood that is drawn out finds its own profile
+        const bool is_drawn =
+            law.prescribes_flow() && law.signal.waveform.mean() < 0;   // blood that is drawn out finds its own profile
         // Of shear-thinning blood that of the mean shear in a parabola that reaches the reference speed.
         const double shear = scene.numerics.reference_speed * 4 / 3 / opening.radius;
-        ends.push_back({.kind = !law.prescribes_flow() ? CellEnd::Kind::pressure : is_drawn ? CellEnd::Kind::flow : CellEnd::Kind::velocity,
+        ends.push_back({.kind = !law.prescribes_flow() ? CellEnd::Kind::pressure
+                                : is_drawn             ? CellEnd::Kind::flow
+                                                       : CellEnd::Kind::velocity,
                         .section = opening.planar ? Section::planar : Section::circular,
                         .radius = opening.radius,
                         .viscosity = viscosity(rheology, shear) / scene.config.blood.density});
@@ -64,7 +68,8 @@ double passage_of(const Scene& scene) { return scene.lumen.narrowest / scene.num
 /// Of a pulse as the deck says. Of a jet that swings a half of its passage: its eddies, about as wide, go by in four.
 double longest_step_of(const Scene& scene) {
     constexpr double per_passage = 0.5;
-    return is_periodic(scene) ? *scene.config.about.period / scene.config.numerics.steps_per_period : per_passage * passage_of(scene);
+    return is_periodic(scene) ? *scene.config.about.period / scene.config.numerics.steps_per_period
+                              : per_passage * passage_of(scene);
 }
 
 /// A flow without rest is watched in windows of so many passages: a jet swings to and fro once in three or five, what it leaves behind goes round
@@ -96,7 +101,9 @@ void start_march(Scene& scene, CellMesh mesh) {
                         .longest_step = longest,
                         .each_step = is_periodic(scene) ? MarchedStep{} : of_jets});
     const CellMarch& started = *march;
-    march->update_ends = [&scene](std::span<OpenEnd> ends, double time, double dt) { impose_laws_ahead(scene.laws, ends, time, dt); };
+    march->update_ends = [&scene](std::span<OpenEnd> ends, double time, double dt) {
+        impose_laws_ahead(scene.laws, ends, time, dt);
+    };
     march->settle_ends = [&scene, &started] {
         advance_laws(scene.laws, scene.ends, scene.time);
         scene.wall_parts = wall_parts_of(started.mesh(), started.balance());
@@ -113,8 +120,9 @@ std::unique_ptr<Scene> build_frame_of_cells(const deck::Case& config) {
 CellMesh place_points(Scene& scene) {
     const deck::Numerics& numerics = scene.config.numerics;
     const Vessel* vessel = scene.vessel ? &*scene.vessel : nullptr;
-    const CellPoints points = numerics.follows_vessel() ? make_cell_points(scene.lumen, make_cell_spacing(scene.lumen, vessel, numerics))
-                                                        : make_cell_points(scene.lumen, numerics.spacing);
+    const CellPoints points = numerics.follows_vessel()
+                                  ? make_cell_points(scene.lumen, make_cell_spacing(scene.lumen, vessel, numerics))
+                                  : make_cell_points(scene.lumen, numerics.spacing);
     scene.spacing_at = points.spacing_at;
     CellMesh mesh = make_cell_mesh(points.point, points.spacing, scene.lumen);
     place_cells(scene, mesh);

@@ -79,11 +79,16 @@ std::string describe_remains(const OutputFolder& folder, const CellScene& scene)
         data.points.push_back(scene.mesh.point[i]), velocity.push_back(fields.velocity[i]);
         pressure.push_back(fields.pressure[i]), volume.push_back(scene.mesh.volume[i]), lacked.push_back(lack[i]);
     }
-    data.arrays = {vectors("velocity", "m/s", velocity), {"pressure", "Pa", 1, pressure}, {"volume", "m^3", 1, volume}, {"lack", "1", 1, lacked}};
+    data.arrays = {vectors("velocity", "m/s", velocity),
+                   {"pressure", "Pa", 1, pressure},
+                   {"volume", "m^3", 1, volume},
+                   {"lack", "1", 1, lacked}};
     write_polydata(folder.file("offenders.vtp"), data, {.non_finite = NonFinite::allow});
     const Vec3& x = data.points[0];
-    return fmt::format("; most of it near ({:.4g}, {:.4g}, {:.4g}) mm, where it goes at {:.3g} m/s. The cells that lack most are in {}", 1e3 * x.x, 1e3 * x.y,
-                       1e3 * x.z, norm(velocity[0]), folder.file("offenders.vtp").string());
+    return fmt::format(
+        "; most of it near ({:.4g}, {:.4g}, {:.4g}) mm, where it goes at {:.3g} m/s. The cells that lack most are in "
+        "{}",
+        1e3 * x.x, 1e3 * x.y, 1e3 * x.z, norm(velocity[0]), folder.file("offenders.vtp").string());
 }
 
 }   // namespace
@@ -112,8 +117,7 @@ Json make_cell_summary(const CellScene& scene) {
         out += ends[k].flow, through += 0.5 * std::abs(ends[k].flow);
     }
     summary["openings"] = openings;
-    summary["gauge_pressure_ratio"] =
-        nullptr;   // of a vessel with a lesion only (vessel_results.h)
+    summary["gauge_pressure_ratio"] = nullptr;   // of a vessel with a lesion only (vessel_results.h)
     summary["ffr"] = {
         {"lesion", nullptr},
         {"reason", config.aorta.pressure ? "a shape has no lesions" : "the deck gives no aortic pressure"}};
@@ -152,7 +156,8 @@ Json make_cell_summary(const CellScene& scene) {
     return summary;
 }
 
-Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage, const std::function<Outcome(const CellScene&)>& follow) {
+Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage,
+                      const std::function<Outcome(const CellScene&)>& follow) {
     const Stopwatch watch;
     const auto say = [&](const std::string& line) { stage.log(LogLevel::info, line); };
     deck::write_case(config, stage.folder.file("case.resolved.yaml"));
@@ -170,24 +175,30 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage, const st
                              .step = steps,
                              .net_inflow = -out};
     };
-    const auto scene = make_solved_scene(config, [&](const CellScene& now) {
-        if (now.mesh.size() != cells) {
-            cells = now.mesh.size();
-            build_cpu = watch.cpu(), build_wall = watch.wall();
-            say(fmt::format("{} cells", cells));
-        }
-        ++steps;
-        if (stage.progress) stage.progress->update(progress_of(now));
-        return stage.interrupted && stage.interrupted();
-    }, [&](const CellScene& lost) { return describe_remains(stage.folder, lost); });
+    const auto scene = make_solved_scene(
+        config,
+        [&](const CellScene& now) {
+            if (now.mesh.size() != cells) {
+                cells = now.mesh.size();
+                build_cpu = watch.cpu(), build_wall = watch.wall();
+                say(fmt::format("{} cells", cells));
+            }
+            ++steps;
+            if (stage.progress) stage.progress->update(progress_of(now));
+            return stage.interrupted && stage.interrupted();
+        },
+        [&](const CellScene& lost) { return describe_remains(stage.folder, lost); });
     if (is_interrupted(scene->solution)) {
         say("interrupted; the flow on cells begins anew the next time");
         return Outcome::interrupted;
     }
     if (stage.progress) stage.progress->finish(progress_of(*scene));
     if (scene->solution.is_given_up) {
-        say(fmt::format("the flow has no rest: after {} steps its cells lack {:.1g} of it. It is followed in time, and means over time are the answer",
-                        scene->solution.history.size(), std::max(scene->balance->volume_residual(), scene->balance->momentum_residual())));
+        say(
+            fmt::format("the flow has no rest: after {} steps its cells lack {:.1g} of it. It is followed in time, and "
+                        "means over time are the answer",
+                        scene->solution.history.size(),
+                        std::max(scene->balance->volume_residual(), scene->balance->momentum_residual())));
         return follow(*scene);
     }
     write_cells(stage.folder, *scene);
@@ -205,11 +216,17 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage, const st
                    {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}});
     say(fmt::format("done: {} steps in {:.1f} s", scene->solution.history.size(), watch.wall()));
     if (scene->solution.is_damped)
-        say("solved by the damped transport (THEORY 18.5), for the sharp one finds no rest here: a pressure drop may be some per cent less exact");
+        say("solved by the damped transport (THEORY 18.5), for the sharp one finds no rest here: a pressure drop may "
+            "be some per cent less exact");
     if (scene->solution.is_converged) return Outcome::done;
-    stage.log(LogLevel::warning, fmt::format("the flow does not come to rest (the cells lack {:.1g} of it): the results are marked; they are means "
-                    "over the last steps, while flows and pressures at the openings stood within {:.2g} %; numerics.without_rest: follow takes means over time, which lasts ten times as long",
-                    std::max(scene->balance->volume_residual(), scene->balance->momentum_residual()), 100 * scene->solution.swing));
+    stage.log(
+        LogLevel::warning,
+        fmt::format(
+            "the flow does not come to rest (the cells lack {:.1g} of it): the results are marked; they are means "
+            "over the last steps, while flows and pressures at the openings stood within {:.2g} %; "
+            "numerics.without_rest: follow takes means over time, which lasts ten times as long",
+            std::max(scene->balance->volume_residual(), scene->balance->momentum_residual()),
+            100 * scene->solution.swing));
     return Outcome::unsettled;
 }
 

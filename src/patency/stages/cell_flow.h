@@ -13,7 +13,8 @@ namespace patency {
 /// Leaves summary.json, timing.json, and the cells and the wall as frames. An interruption leaves nothing to go on from:
 /// the whole takes less than what a checkpoint would save. `follow` takes over a flow that has no rest, if the deck wants that. Throws as
 /// run_flow.
-Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage, const std::function<Outcome(const CellScene&)>& follow);
+Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage,
+                      const std::function<Outcome(const CellScene&)>& follow);
 
 /// The numbers of a flow's part of summary.json: a function of the scene only. Throws DivergedError where one is not finite.
 nlohmann::ordered_json make_cell_summary(const CellScene& scene);

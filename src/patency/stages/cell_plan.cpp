@@ -27,10 +27,12 @@ double count_along(const VesselAlong& along, const SpacingField& field) {
     for (std::size_t n = 0; n < along.lines.lines.size(); ++n) {
         const auto& points = along.lines.lines[n].points;
         std::size_t first = 1;
-        for (std::size_t m = 0; m < n; ++m) first = std::max(first, shared_points(along.lines.lines[m], along.lines.lines[n]));
+        for (std::size_t m = 0; m < n; ++m)
+            first = std::max(first, shared_points(along.lines.lines[m], along.lines.lines[n]));
         for (std::size_t k = first; k < points.size(); ++k) {
             const double r = points[k].radius;
-            count += std::numbers::pi * r * r * (points[k].arc - points[k - 1].arc) / std::pow(field(points[k].place), 3);
+            count +=
+                std::numbers::pi * r * r * (points[k].arc - points[k - 1].arc) / std::pow(field(points[k].place), 3);
         }
     }
     return count;
@@ -62,7 +64,14 @@ CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) 
     std::optional<Vessel> vessel;
     if (config.has_vessel() && !known) known = &vessel.emplace(read_vessel(config));
     const Lumen lumen = make_cell_lumen(config, known);
-    CellPlan plan{.cells = 0, .finest = config.numerics.spacing, .coarsest = config.numerics.spacing, .across_narrowest = 0, .memory = 0, .seconds = 0, .steps = steps_of(config), .threads = threads};
+    CellPlan plan{.cells = 0,
+                  .finest = config.numerics.spacing,
+                  .coarsest = config.numerics.spacing,
+                  .across_narrowest = 0,
+                  .memory = 0,
+                  .seconds = 0,
+                  .steps = steps_of(config),
+                  .threads = threads};
     if (config.numerics.follows_vessel()) {
         const SpacingField field = make_cell_spacing(lumen, known, config.numerics);
         plan.cells = known ? count_along(*known->along, field) : count_inside(lumen, field);
@@ -73,7 +82,8 @@ CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) 
     }
     plan.across_narrowest = lumen.narrowest / plan.finest;
     plan.memory = bytes_at_least + bytes_per_cell * plan.cells;
-    plan.seconds = (seconds_per_cell + plan.steps * seconds_per_cell_and_step) * plan.cells * (1 - shared + shared / threads);
+    plan.seconds =
+        (seconds_per_cell + plan.steps * seconds_per_cell_and_step) * plan.cells * (1 - shared + shared / threads);
     return plan;
 }
 

@@ -69,7 +69,8 @@ void expect_possible(const deck::Case& config) {
     if (norm(config.body_force) > 0) throw DeckError("numerics.scheme: cells knows no body_force" + ask);
     for (const auto& [name, opening] : config.openings)
         if (opening.waveform && config.about.mode == deck::Mode::steady)
-            throw DeckError(fmt::format("openings.{}.waveform: of a steady flow on cells there is none; case.mode: periodic follows it", name));
+            throw DeckError(fmt::format(
+                "openings.{}.waveform: of a steady flow on cells there is none; case.mode: periodic follows it", name));
 }
 
 Lumen make_cell_lumen(const deck::Case& config, const Vessel* vessel) {
@@ -114,8 +115,8 @@ CellPoints make_cell_points(const Lumen& lumen, double spacing) {
 }
 
 std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen& lumen, const CellPoints& points) {
-    auto scene = std::make_unique<CellScene>(
-        CellScene{config, lumen, make_cell_mesh(points.point, points.spacing, lumen), points.spacing_at, {}, 0, {}, {}});
+    auto scene = std::make_unique<CellScene>(CellScene{
+        config, lumen, make_cell_mesh(points.point, points.spacing, lumen), points.spacing_at, {}, 0, {}, {}});
     tune_outlets(scene->config, lumen.openings);
     std::vector<EndLaw> laws;
     for (const Opening& opening : lumen.openings) {
@@ -132,7 +133,8 @@ std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen
 void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSettings& settings) {
     if (coarser) {
         scene.balance->set_fields(coarser->balance->fields_at(scene.mesh.point));
-        scene.balance->start_ends_as(*coarser->balance);   // or the first gradients would see other pressures at the openings
+        scene.balance->start_ends_as(
+            *coarser->balance);   // or the first gradients would see other pressures at the openings
     }
     CellMatrix matrix(scene.mesh);
     scene.solution = solve_steady(*scene.balance, matrix, settings);
@@ -149,13 +151,15 @@ std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
     if (numerics.follows_vessel()) field = make_cell_spacing(lumen, vessel.get(), numerics);
     const double across = field ? *numerics.across : lumen.narrowest / numerics.spacing;
     const auto solved = [&](double coarser_by, const CellScene* coarser) {
-        auto scene = make_cell_scene(config, lumen, field ? make_cell_points(lumen, field->scaled(coarser_by))
-                                                          : make_cell_points(lumen, coarser_by * numerics.spacing));
+        auto scene = make_cell_scene(config, lumen,
+                                     field ? make_cell_points(lumen, field->scaled(coarser_by))
+                                           : make_cell_points(lumen, coarser_by * numerics.spacing));
         scene->vessel = vessel;
         CellSolverSettings settings{.tolerance = coarser_by > 1 ? coarse_tolerance : CellSolverSettings{}.tolerance,
                                     .starts_sharp = coarser && !coarser->solution.is_damped,
                                     .gives_up = numerics.without_rest == deck::WithoutRest::follow};
-        if (settings.gives_up) settings.mixes_below = 0;   // steps that are mixed find a steady flow also where none would last
+        if (settings.gives_up)
+            settings.mixes_below = 0;   // steps that are mixed find a steady flow also where none would last
         // Nor would finer cells find rest: only what the coarse ones' fields lack on them is to fade.
         if (coarser && coarser->solution.is_given_up) settings.most_iterations = fading;
         if (coarser_by > 1) settings.most_sharp_iterations = coarse_sharp_steps;

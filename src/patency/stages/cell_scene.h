@@ -17,8 +17,8 @@ namespace patency {
 
 /// Points in a lumen, and the spacing of each.
 struct CellPoints {
-    std::vector<Vec3> point;       ///< [m]
-    std::vector<double> spacing;   ///< [m]
+    std::vector<Vec3> point;                         ///< [m]
+    std::vector<double> spacing;                     ///< [m]
     std::function<double(const Vec3&)> spacing_at;   ///< everywhere in the lumen [m]
 };
 
@@ -27,9 +27,9 @@ struct CellScene {
     Lumen lumen;
     CellMesh mesh;
     std::function<double(const Vec3&)> spacing_at;   ///< of its points [m]
-    std::vector<CellEnd> ends;              ///< as lumen.openings
-    double reference_speed;                 ///< [m/s]
-    std::unique_ptr<CellBalance> balance;   ///< refers to the mesh
+    std::vector<CellEnd> ends;                       ///< as lumen.openings
+    double reference_speed;                          ///< [m/s]
+    std::unique_ptr<CellBalance> balance;            ///< refers to the mesh
     CellSolution solution;
     std::shared_ptr<const Vessel> vessel{};   ///< of a surface or a network
 };
@@ -56,7 +56,8 @@ void solve_scene(CellScene& scene, const CellScene* coarser, const CellSolverSet
 /// The scene of a deck with its flow: a coarse one first, which costs little and is a good start. `watch` is called with
 /// every scene before and after every step of its solution; true ends the run. `describe_remains`, of a scene whose flow diverged, is
 /// added to the DivergedError. vessel: the deck's, if it is known.
-std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config, const std::function<bool(const CellScene&)>& watch = {},
+std::unique_ptr<CellScene> make_solved_scene(const deck::Case& config,
+                                             const std::function<bool(const CellScene&)>& watch = {},
                                              const std::function<std::string(const CellScene&)>& describe_remains = {},
                                              std::shared_ptr<const Vessel> vessel = {});
 

@@ -24,7 +24,8 @@ deck::Case case_on_cells(deck::Case config) {
 
 CellStart::CellStart(const Scene& scene)
     : scene_(scene),
-      solved_(make_solved_scene(case_on_cells(scene.config /* pressures less the datum: so are the fields */), {}, {}, std::shared_ptr<const Vessel>(std::shared_ptr<void>(), &*scene.vessel))),
+      solved_(make_solved_scene(case_on_cells(scene.config /* pressures less the datum: so are the fields */), {}, {},
+                                std::shared_ptr<const Vessel>(std::shared_ptr<void>(), &*scene.vessel))),
       ends_(solved_->balance->end_states()) {}
 
 CellStart::~CellStart() = default;
@@ -48,7 +49,9 @@ std::vector<Vec3> CellStart::velocities(std::span<const Vec3> places) const {
     return mean;
 }
 
-std::vector<double> CellStart::pressures(std::span<const Vec3> places) const { return solved_->balance->fields_at(places).pressure; }
+std::vector<double> CellStart::pressures(std::span<const Vec3> places) const {
+    return solved_->balance->fields_at(places).pressure;
+}
 
 std::size_t CellStart::cells() const { return solved_->mesh.size(); }
 

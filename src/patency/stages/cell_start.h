@@ -21,7 +21,8 @@ deck::Case case_on_cells(deck::Case config);
 /// From a particle to the six points around it whose mean is that of a quadratic profile over its cell.   THEORY.md (15.6)
 inline std::array<Vec3, 6> ways_around(double spacing) {
     const double half = 0.5 * spacing;
-    return {Vec3{half, 0, 0}, Vec3{-half, 0, 0}, Vec3{0, half, 0}, Vec3{0, -half, 0}, Vec3{0, 0, half}, Vec3{0, 0, -half}};
+    return {Vec3{half, 0, 0},  Vec3{-half, 0, 0}, Vec3{0, half, 0},
+            Vec3{0, -half, 0}, Vec3{0, 0, half},  Vec3{0, 0, -half}};
 }
 
 class CellStart {

@@ -20,7 +20,8 @@ std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
     scene->vessel = *cells.vessel;
     scene->estimate = estimate_flow(cells.config, *scene->vessel);
     scene->material = make_material(cells.config.blood);
-    scene->numerics.spacing = largest_of(cells.mesh.size(), [&](std::size_t i) { return cells.spacing_at(cells.mesh.point[i]); });
+    scene->numerics.spacing =
+        largest_of(cells.mesh.size(), [&](std::size_t i) { return cells.spacing_at(cells.mesh.point[i]); });
     scene->spacing_at = cells.spacing_at;
     scene->numerics.reference_speed = cells.reference_speed;
     const double reach = 2 * scene->numerics.smoothing_ratio * scene->numerics.spacing;
@@ -41,8 +42,10 @@ void add_vessel_results(nlohmann::ordered_json& summary, const CellScene& cells,
     const std::string& inlet = scene->vessel->openings.front().opening.name;
     double at_inlet = 0, lowest = INFINITY;
     for (std::size_t k = 0; k < ends.size(); ++k) {
-        if (cells.lumen.openings[k].name == inlet) at_inlet = ends[k].pressure;
-        else lowest = std::min(lowest, ends[k].pressure);
+        if (cells.lumen.openings[k].name == inlet)
+            at_inlet = ends[k].pressure;
+        else
+            lowest = std::min(lowest, ends[k].pressure);
     }
     const VesselFlow flow = evaluate_vessel(*scene, recorder, at_inlet, lowest);
     add_vessel_summary(summary, *scene, recorder, flow);

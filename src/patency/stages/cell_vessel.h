@@ -2,8 +2,8 @@
 // A vessel's steady flow on cells told in the same way as one of moving particles: branches, lesions, FFR, wall shear.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 
 #include "patency/io/output_folder.h"
 #include "patency/stages/cell_scene.h"

@@ -17,7 +17,7 @@ struct DeployStage {
     std::function<bool()> interrupted = {};   ///< asked after every step
     Log log = no_log;
     Progress* progress = nullptr;
-    double wall_between_checkpoints = 300;    ///< of a deployment with mechanics [s of wall time]
+    double wall_between_checkpoints = 300;   ///< of a deployment with mechanics [s of wall time]
 };
 
 /// As deployment.mode says. With mechanics it goes on where the folder's checkpoint of the deployment stands, else begins (the caller

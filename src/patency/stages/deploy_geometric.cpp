@@ -35,7 +35,8 @@ Surface refined_around(Surface surface, const StentPlace& place, const LumenMorp
     const double size = 0.1 * place.diameter;   // a thirtieth of the circumference
     refine_surface(surface, [&](const Vec3& x) {
         const StentPoint at = place.axis.coordinates(x);
-        const double past = std::max({0.0, std::abs(at.along) - morph.length / 2 - morph.shoulder, at.radius - 2 * morph.radius});
+        const double past =
+            std::max({0.0, std::abs(at.along) - morph.length / 2 - morph.shoulder, at.radius - 2 * morph.radius});
         return size + 0.5 * past;
     });
     return surface;
@@ -50,9 +51,14 @@ void deploy_geometrically(const deck::Case& config, const DeployStage& stage) {
     const Vessel before = read_vessel(config, network_resolution(config));
     const StentPlace place = place_stent(config, before);
     const Centreline& line = before.along->lines.lines[place.line];
-    const LumenMorph morph{.radius = place.diameter / 2, .length = place.opened_length, .shoulder = shoulder_of(place, line, config.deployment.shoulder)};
-    say(fmt::format("the stent of {:.4g} mm lies {:.4g} to {:.4g} mm from the inlet towards {}; the lumen there is {:.3g} mm at its narrowest, {:.3g} mm where healthy",
-                    1e3 * place.pattern.length, 1e3 * place.start_arc(), 1e3 * place.end_arc(), line.outlet, 1e3 * place.narrowest, 1e3 * place.reference_diameter));
+    const LumenMorph morph{.radius = place.diameter / 2,
+                           .length = place.opened_length,
+                           .shoulder = shoulder_of(place, line, config.deployment.shoulder)};
+    say(
+        fmt::format("the stent of {:.4g} mm lies {:.4g} to {:.4g} mm from the inlet towards {}; the lumen there is "
+                    "{:.3g} mm at its narrowest, {:.3g} mm where healthy",
+                    1e3 * place.pattern.length, 1e3 * place.start_arc(), 1e3 * place.end_arc(), line.outlet,
+                    1e3 * place.narrowest, 1e3 * place.reference_diameter));
 
     Surface surface = refined_around(before.checked.surface, place, morph);
     morph_surface(surface, place.axis, morph);
@@ -67,16 +73,20 @@ void deploy_geometrically(const deck::Case& config, const DeployStage& stage) {
     const StrutFit fit = measure_fit(outer.places, outer.areas, place.axis, lumen);
     write_stent_table(stage.folder.file("stent.csv"), shape);
 
-    nlohmann::ordered_json deploy = {{"mode", "geometric"}, {"is_mechanical", false},
-                                     {"note", "the lumen took the stent's nominal shape without mechanics: no recoil, no stress, no contact"}};
+    nlohmann::ordered_json deploy = {
+        {"mode", "geometric"},
+        {"is_mechanical", false},
+        {"note", "the lumen took the stent's nominal shape without mechanics: no recoil, no stress, no contact"}};
     deploy.update(deploy_summary(place, shape, fit, find_jailed_ostia(shape, place.axis, lumen), gain));
     deploy["foreshortening_percent"] = 100 * foreshortening(place.pattern.length, shape.length);
     for (const char* key : {"recoil_percent", "penetration_over_spacing", "kinetic_to_internal"}) deploy[key] = nullptr;
     write_summary(stage.folder.file("summary.json"), {{"deploy", deploy}});
-    write_summary(stage.folder.file("timing.json"),
-                  {{"machine", machine_name()}, {"threads", omp_get_max_threads()}, {"deploy", {{"cpu_s", watch.cpu()}, {"wall_s", watch.wall()}}}});
-    say(fmt::format("done without mechanics: narrowest {:.3g} mm, before {:.3g} mm; residual stenosis {:.1f} %; {:.1f} s", 1e3 * gain.narrowest_after,
-                    1e3 * gain.narrowest_before, 100 * gain.residual_stenosis(), watch.wall()));
+    write_summary(stage.folder.file("timing.json"), {{"machine", machine_name()},
+                                                     {"threads", omp_get_max_threads()},
+                                                     {"deploy", {{"cpu_s", watch.cpu()}, {"wall_s", watch.wall()}}}});
+    say(fmt::format(
+        "done without mechanics: narrowest {:.3g} mm, before {:.3g} mm; residual stenosis {:.1f} %; {:.1f} s",
+        1e3 * gain.narrowest_after, 1e3 * gain.narrowest_before, 100 * gain.residual_stenosis(), watch.wall()));
 }
 
 }   // namespace patency

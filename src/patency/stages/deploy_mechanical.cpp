@@ -47,38 +47,60 @@ struct RadialLoad {
 
 /// What is known after the phase in which it is measured.
 struct Marks {
-    double crimped_length = 0, crimped_diameter = 0;     // before it opens [m]
-    double opened_diameter = 0, opened_length = 0;       // before it is let go [m]
-    double touched = 0;                                  // when stent and wall first met while it opens [s]
-    double stent_ratio = 0, wall_ratio = 0;              // the largest kinetic over internal while it opens, after the first tenth
-    double balloon_pressure = 0;                         // the largest [Pa]
-    double deepest = 0;                                  // of stent in wall [m]
+    double crimped_length = 0, crimped_diameter = 0;   // before it opens [m]
+    double opened_diameter = 0, opened_length = 0;     // before it is let go [m]
+    double touched = 0;                                // when stent and wall first met while it opens [s]
+    double stent_ratio = 0, wall_ratio = 0;   // the largest kinetic over internal while it opens, after the first tenth
+    double balloon_pressure = 0;              // the largest [Pa]
+    double deepest = 0;                       // of stent in wall [m]
 };
 
 /// What tools gave and contacts took.
 struct ContactAccount {
     double work = 0, stored = 0, friction = 0, damping = 0;   // [J]
-    void add(const ContactReport& r) { work += r.work, stored += r.energy, friction += r.friction_loss, damping += r.damping_loss; }
+    void add(const ContactReport& r) {
+        work += r.work, stored += r.energy, friction += r.friction_loss, damping += r.damping_loss;
+    }
 };
 
 class Deployment {
 public:
     Deployment(const deck::Case& config, const DeployStage& stage)
-        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("deploy")) {
+        : config_(config),
+          stage_(stage),
+          origin_(origin_of(config, stage.binary_hash)),
+          checkpoint_(stage.folder.checkpoint("deploy")) {
         const bool goes_on = stage.folder.has_checkpoint("deploy");
         scene_ = build_deployment(config);
         program_ = make_deploy_program(scene_->place, config.deployment);
         stent_ = scene_->stent.get(), wall_ = scene_->wall.get();
-        if (goes_on) read_checkpoint();
-        else deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+        if (goes_on)
+            read_checkpoint();
+        else
+            deck::write_case(config, stage.folder.file("case.resolved.yaml"));
         tell_plan();
-        const auto series = [&](const char* name) { return goes_on ? PvdWriter::resumed(stage.folder.file(name), time()) : PvdWriter(stage.folder.file(name)); };
-        stent_series_ = std::make_unique<PvdWriter>(series("stent.pvd")), wall_series_ = std::make_unique<PvdWriter>(series("wall.pvd"));
-        const std::vector<std::string> columns = {"time_s", "phase", "tool_radius_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm",
-                                                  "length_mm", "tool_pressure_pa", "stent_kinetic_j", "stent_internal_j", "stent_plastic_j", "wall_kinetic_j",
-                                                  "wall_internal_j", "penetration_mm"};
+        const auto series = [&](const char* name) {
+            return goes_on ? PvdWriter::resumed(stage.folder.file(name), time()) : PvdWriter(stage.folder.file(name));
+        };
+        stent_series_ = std::make_unique<PvdWriter>(series("stent.pvd")),
+        wall_series_ = std::make_unique<PvdWriter>(series("wall.pvd"));
+        const std::vector<std::string> columns = {"time_s",
+                                                  "phase",
+                                                  "tool_radius_mm",
+                                                  "mean_diameter_mm",
+                                                  "minimum_diameter_mm",
+                                                  "maximum_diameter_mm",
+                                                  "length_mm",
+                                                  "tool_pressure_pa",
+                                                  "stent_kinetic_j",
+                                                  "stent_internal_j",
+                                                  "stent_plastic_j",
+                                                  "wall_kinetic_j",
+                                                  "wall_internal_j",
+                                                  "penetration_mm"};
         const auto table = stage.folder.file("deployment.csv");
-        table_ = std::make_unique<CsvWriter>(goes_on ? CsvWriter::resumed(table, columns, time()) : CsvWriter(table, columns));
+        table_ = std::make_unique<CsvWriter>(goes_on ? CsvWriter::resumed(table, columns, time())
+                                                     : CsvWriter(table, columns));
     }
 
     bool run() {
@@ -99,14 +121,20 @@ private:
 
     void tell_plan() {
         const StentPlace& place = scene_->place;
-        say(fmt::format("stent: {:.4g} x {:.4g} mm along {:.4g} to {:.4g} mm from the inlet; crimped to {:.4g}, opened to {:.4g} mm; the lumen there is {:.3g} mm at its narrowest, "
-                        "{:.3g} mm where healthy",
-                        1e3 * place.pattern.diameter, 1e3 * place.pattern.length, 1e3 * place.start_arc(), 1e3 * place.end_arc(), 1e3 * place.crimped_diameter,
-                        1e3 * place.diameter, 1e3 * place.narrowest, 1e3 * place.reference_diameter));
-        say(fmt::format("stent: {} particles {:.3g} um apart, {} vertices, mass times {:.4g}; wall: {} particles {:.3g} mm apart, {} vertices; {} ends", stent_->body->particles().size(),
-                        1e6 * scene_->stent_spacing, stent_->surface->size(), scene_->mass_scaling, wall_->body->particles().size(), 1e3 * scene_->wall_spacing,
+        say(fmt::format(
+            "stent: {:.4g} x {:.4g} mm along {:.4g} to {:.4g} mm from the inlet; crimped to {:.4g}, opened to {:.4g} "
+            "mm; the lumen there is {:.3g} mm at its narrowest, "
+            "{:.3g} mm where healthy",
+            1e3 * place.pattern.diameter, 1e3 * place.pattern.length, 1e3 * place.start_arc(), 1e3 * place.end_arc(),
+            1e3 * place.crimped_diameter, 1e3 * place.diameter, 1e3 * place.narrowest, 1e3 * place.reference_diameter));
+        say(
+            fmt::format("stent: {} particles {:.3g} um apart, {} vertices, mass times {:.4g}; wall: {} particles "
+                        "{:.3g} mm apart, {} vertices; {} ends",
+                        stent_->body->particles().size(), 1e6 * scene_->stent_spacing, stent_->surface->size(),
+                        scene_->mass_scaling, wall_->body->particles().size(), 1e3 * scene_->wall_spacing,
                         wall_->surface->size(), scene_->field->ends().size()));
-        say(fmt::format("stable steps: stent {:.3g} s, wall {:.3g} s; {:.3g} s in all", stent_->body->stable_step(), wall_->body->stable_step(), program_.end()));
+        say(fmt::format("stable steps: stent {:.3g} s, wall {:.3g} s; {:.3g} s in all", stent_->body->stable_step(),
+                        wall_->body->stable_step(), program_.end()));
     }
 
     bool has_wall() const { return scene_->wall == nullptr; }
@@ -122,19 +150,24 @@ private:
         solids.is_relaxed = phase == DeployPhase::release || phase == DeployPhase::hold || phase == DeployPhase::settle;
         const double step = known_step ? *known_step : stable_step(solids);
         const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
-            return make_tool_contact(surface, {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
-                                     {.friction = config_.deployment.balloon_friction, .step = step});
+            return make_tool_contact(
+                surface,
+                {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
+                {.friction = config_.deployment.balloon_friction, .step = step});
         };
         phase_ = phase;
         if (phase == DeployPhase::crimp) {
             crimper_ = add(tool(*stent_->surface, RadialTool::Kind::crimper, program_.crimper));
-            add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));   // folded: what it is crimped onto
+            add(tool(*stent_->surface, RadialTool::Kind::balloon,
+                     program_.balloon));   // folded: what it is crimped onto
         } else if (needs_wall && !stent_on_wall_) {
             for (const auto& gone : solids.contacts) past_.add(gone->report());
             solids.contacts.clear();
             crimper_ = predilator_ = nullptr;
-            if (config_.deployment.tethering > 0) add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
-            stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface, {.friction = config_.deployment.friction, .step = step}));
+            if (config_.deployment.tethering > 0)
+                add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
+            stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface,
+                                                      {.friction = config_.deployment.friction, .step = step}));
         }
         if (phase == DeployPhase::enter && !balloon_)   // folded within the stent, which the wall closes on
             balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
@@ -154,7 +187,8 @@ private:
             add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon));
             return;
         }
-        load_ = std::make_shared<RadialLoad>(RadialLoad{.from = program_.open_from, .ramp = config_.deployment.ramp, .most = config_.deployment.load});
+        load_ = std::make_shared<RadialLoad>(
+            RadialLoad{.from = program_.open_from, .ramp = config_.deployment.ramp, .most = config_.deployment.load});
         stent_->pressures.push_back({stent_inner, [load = load_](double t) { return load->pressure(t); }});
     }
 
@@ -183,8 +217,13 @@ private:
             }
             if (time() == next) look(row);
             if (stage_.progress)
-                stage_.progress->update({.stage = std::string(name_of(entry.phase)), .fraction = time() / program_.end(), .time = time(), .step = scene_->solids.steps});
-            if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY && profile_.mean_diameter >= scene_->place.diameter) stop_load();
+                stage_.progress->update({.stage = std::string(name_of(entry.phase)),
+                                         .fraction = time() / program_.end(),
+                                         .time = time(),
+                                         .step = scene_->solids.steps});
+            if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY &&
+                profile_.mean_diameter >= scene_->place.diameter)
+                stop_load();
             if (is_stopped || watch_.wall() - last_checkpoint_ > stage_.wall_between_checkpoints) write_checkpoint();
             if (is_stopped) {
                 say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", time()));
@@ -226,9 +265,13 @@ private:
     }
     /// What is known of the past.
     std::vector<double*> known_numbers() {
-        std::vector<double*> numbers = {&marks_.crimped_length, &marks_.crimped_diameter, &marks_.opened_diameter, &marks_.opened_length, &marks_.touched,
-                                        &marks_.stent_ratio, &marks_.wall_ratio, &marks_.balloon_pressure, &marks_.deepest,
-                                        &past_.work, &past_.stored, &past_.friction, &past_.damping};
+        std::vector<double*> numbers = {&marks_.crimped_length,  &marks_.crimped_diameter,
+                                        &marks_.opened_diameter, &marks_.opened_length,
+                                        &marks_.touched,         &marks_.stent_ratio,
+                                        &marks_.wall_ratio,      &marks_.balloon_pressure,
+                                        &marks_.deepest,         &past_.work,
+                                        &past_.stored,           &past_.friction,
+                                        &past_.damping};
         if (load_) numbers.insert(numbers.end(), {&load_->stopped, &load_->reached});
         return numbers;
     }
@@ -237,7 +280,8 @@ private:
         load_->reached = load_->pressure(time());
         load_->stopped = time();
         marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
-        say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load_->reached, 1e3 * profile_.mean_diameter));
+        say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load_->reached,
+                        1e3 * profile_.mean_diameter));
     }
 
     /// Where the work of the tools is.
@@ -246,14 +290,19 @@ private:
         contacts.stored = 0;   // of those that are gone
         for (const auto& c : system().contacts) contacts.add(c->report());
         double kept = contacts.stored + contacts.friction + contacts.damping;
-        Json energies = {{"tool_work_j", contacts.work}, {"friction_loss_j", contacts.friction}, {"contact_damping_loss_j", contacts.damping}};
+        Json energies = {{"tool_work_j", contacts.work},
+                         {"friction_loss_j", contacts.friction},
+                         {"contact_damping_loss_j", contacts.damping}};
         for (const auto& part : system().parts) {
             const SolidEnergy e = part->body->energy();
-            energies[part->name] = {{"kinetic_j", e.kinetic}, {"elastic_j", e.elastic}, {"plastic_j", e.plastic}, {"hourglass_j", e.hourglass},
-                                    {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous}, {"drag_loss_j", e.drag}};
+            energies[part->name] = {{"kinetic_j", e.kinetic},        {"elastic_j", e.elastic},
+                                    {"plastic_j", e.plastic},        {"hourglass_j", e.hourglass},
+                                    {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous},
+                                    {"drag_loss_j", e.drag}};
             kept += e.kinetic + e.internal() + e.lost();
         }
-        if (!load_ && contacts.work > 0) energies["imbalance_percent"] = 100 * std::abs(contacts.work - kept) / contacts.work;
+        if (!load_ && contacts.work > 0)
+            energies["imbalance_percent"] = 100 * std::abs(contacts.work - kept) / contacts.work;
         return energies;
     }
 
@@ -266,7 +315,8 @@ private:
     /// The stent where it is at the end of a step.
     void measure() {
         stent_->surface->follow(stent_->body->particles());
-        profile_ = measure_stent_profile(seen_from(scene_->place.axis, outer_faces_of(*stent_).places), slices_for(scene_->place.pattern));
+        profile_ = measure_stent_profile(seen_from(scene_->place.axis, outer_faces_of(*stent_).places),
+                                         slices_for(scene_->place.pattern));
     }
 
     /// A row of the table, now and then a picture.
@@ -278,16 +328,22 @@ private:
         if (stent_on_wall_) marks_.deepest = std::max(marks_.deepest, stent_on_wall_->report().deepest);
         if (phase_ == DeployPhase::open) {
             marks_.balloon_pressure = std::max(marks_.balloon_pressure, pressure);
-            const double first_tenth = 0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
+            const double first_tenth =
+                0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
             const bool is_driven = !(load_ && load_->stopped < INFINITY);
             if (marks_.touched == 0 && marks_.deepest > 0) marks_.touched = time();
-            if (is_driven && time() > program_.open_from + first_tenth) marks_.stent_ratio = std::max(marks_.stent_ratio, stent.ratio());
-            if (is_driven && marks_.touched > 0 && time() > marks_.touched + first_tenth) marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
+            if (is_driven && time() > program_.open_from + first_tenth)
+                marks_.stent_ratio = std::max(marks_.stent_ratio, stent.ratio());
+            if (is_driven && marks_.touched > 0 && time() > marks_.touched + first_tenth)
+                marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
         }
-        table_->write_row({time(), double(phase_), 1e3 * tool_radius(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter,
-                          1e3 * profile_.length, pressure, stent.kinetic, stent.internal, stent.plastic, wall.kinetic, wall.internal, 1e3 * marks_.deepest});
+        table_->write_row({time(), double(phase_), 1e3 * tool_radius(), 1e3 * profile_.mean_diameter,
+                           1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter, 1e3 * profile_.length, pressure,
+                           stent.kinetic, stent.internal, stent.plastic, wall.kinetic, wall.internal,
+                           1e3 * marks_.deepest});
         const double frame = program_.end() / config_.deployment.frames;
-        if (stent_series_->size() == 0 || time() >= frame * double(stent_series_->size()) - 0.5 * row) write_frames(nullptr);
+        if (stent_series_->size() == 0 || time() >= frame * double(stent_series_->size()) - 0.5 * row)
+            write_frames(nullptr);
     }
 
     void write_frames(const SignedDistance* lumen) {
@@ -304,18 +360,25 @@ private:
     void expect_crimped() const {
         const double wanted = scene_->place.crimped_diameter, allowed = wanted + scene_->place.pattern.strut_thickness;
         if (profile_.most_diameter > allowed)
-            throw DivergedError(fmt::format("the crimper lost a part of the stent, which is up to {:.4g} mm wide where {:.4g} mm were wanted (stent.pvd shows where): "
-                                            "crimp it less, or give deployment.steps more", 1e3 * profile_.most_diameter, 1e3 * wanted));
+            throw DivergedError(
+                fmt::format("the crimper lost a part of the stent, which is up to {:.4g} mm wide where {:.4g} mm were "
+                            "wanted (stent.pvd shows where): "
+                            "crimp it less, or give deployment.steps more",
+                            1e3 * profile_.most_diameter, 1e3 * wanted));
     }
 
     void end(DeployPhase phase) {
-        say(fmt::format("{} done at {:.4g} ms: diameter {:.4g} mm ({:.4g} to {:.4g}), length {:.4g} mm; {} steps, {:.0f} s", name_of(phase), 1e3 * time(),
-                        1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter, 1e3 * profile_.length, scene_->solids.steps, watch_.wall()));
+        say(fmt::format(
+            "{} done at {:.4g} ms: diameter {:.4g} mm ({:.4g} to {:.4g}), length {:.4g} mm; {} steps, {:.0f} s",
+            name_of(phase), 1e3 * time(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter,
+            1e3 * profile_.most_diameter, 1e3 * profile_.length, scene_->solids.steps, watch_.wall()));
         if (phase == DeployPhase::crimp) expect_crimped();
         if (phase <= DeployPhase::enter || marks_.crimped_length == 0) {
-            if (phase != DeployPhase::open) marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
+            if (phase != DeployPhase::open)
+                marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
         }
-        if (phase == DeployPhase::hold && marks_.opened_diameter == 0) marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
+        if (phase == DeployPhase::hold && marks_.opened_diameter == 0)
+            marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
         if (phase == DeployPhase::open && load_ && load_->stopped == INFINITY) {
             stage_.log(LogLevel::warning, "the load did not open the stent to the wanted diameter");
             stop_load();
@@ -323,7 +386,8 @@ private:
     }
 
     void finish() {
-        Vessel after = write_lumen_after(config_, scene_->vessel, scene_->lumen_now(wall_->body->particles()), stage_.folder);
+        Vessel after =
+            write_lumen_after(config_, scene_->vessel, scene_->lumen_now(wall_->body->particles()), stage_.folder);
         follow_vessel(after);
         const SignedDistance lumen = make_exact_distance(closed_at(after.checked.surface, after.checked.ends));
         write_frames(&lumen);
@@ -354,12 +418,21 @@ private:
         deploy["steps"] = scene_->solids.steps;
         write_summary(stage_.folder.file("summary.json"), {{"deploy", deploy}});
         const double particle_steps = double(scene_->solids.steps) * double(stent_->body->particles().size());
-        write_summary(stage_.folder.file("timing.json"), {{"machine", machine_name()}, {"threads", omp_get_max_threads()},
-                                                          {"deploy", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}, {"stent_particle_steps_per_s", particle_steps / watch_.wall()}}}});
-        if (stage_.progress) stage_.progress->finish({.stage = "deploy", .fraction = 1, .time = time(), .step = scene_->solids.steps});
-        say(fmt::format("done: stent {:.4g} mm, recoil {:.2f} %, lumen {:.3g} mm at its narrowest (before {:.3g}), residual stenosis {:.1f} %; {} steps in {:.0f} s",
-                        1e3 * profile_.mean_diameter, 100 * recoil(marks_.opened_diameter, profile_.mean_diameter), 1e3 * gain.narrowest_after, 1e3 * gain.narrowest_before,
-                        100 * gain.residual_stenosis(), scene_->solids.steps, watch_.wall()));
+        write_summary(stage_.folder.file("timing.json"),
+                      {{"machine", machine_name()},
+                       {"threads", omp_get_max_threads()},
+                       {"deploy",
+                        {{"cpu_s", watch_.cpu()},
+                         {"wall_s", watch_.wall()},
+                         {"stent_particle_steps_per_s", particle_steps / watch_.wall()}}}});
+        if (stage_.progress)
+            stage_.progress->finish({.stage = "deploy", .fraction = 1, .time = time(), .step = scene_->solids.steps});
+        say(
+            fmt::format("done: stent {:.4g} mm, recoil {:.2f} %, lumen {:.3g} mm at its narrowest (before {:.3g}), "
+                        "residual stenosis {:.1f} %; {} steps in {:.0f} s",
+                        1e3 * profile_.mean_diameter, 100 * recoil(marks_.opened_diameter, profile_.mean_diameter),
+                        1e3 * gain.narrowest_after, 1e3 * gain.narrowest_before, 100 * gain.residual_stenosis(),
+                        scene_->solids.steps, watch_.wall()));
     }
 
     const deck::Case& config_;
@@ -379,7 +452,7 @@ private:
     std::vector<double> contact_steps_;   // of the phases that have begun: what their contacts are as stiff for [s]
     CheckpointOrigin origin_;
     std::filesystem::path checkpoint_;
-    double last_checkpoint_ = 0;          // s of wall time
+    double last_checkpoint_ = 0;   // s of wall time
 };
 
 }   // namespace

@@ -28,7 +28,8 @@ DeployPlan plan_deploy(const deck::Case& config, int threads) {
     plan.wall_spacing = config.wall.spacing.value_or(usual_wall_spacing(thickness));
     plan.stent_spacing = config.stent->spacing.value_or(largest_stent_spacing(place.form));
     const auto cube = [](double x) { return x * x * x; };
-    const double inner = place.reference_diameter / 2, outer = inner + thickness, length = (1 + 2 * config.deployment.region) * place.pattern.length;
+    const double inner = place.reference_diameter / 2, outer = inner + thickness,
+                 length = (1 + 2 * config.deployment.region) * place.pattern.length;
     plan.wall_particles = std::numbers::pi * (outer * outer - inner * inner) * length / cube(plan.wall_spacing);
     plan.stent_particles = metal_volume(place.form) / cube(plan.stent_spacing);
     plan.mass_scaling = stent_mass_scaling(config, place, plan.stent_spacing);

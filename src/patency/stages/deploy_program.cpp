@@ -28,8 +28,10 @@ std::string_view name_of(DeployPhase phase) {
 }
 
 DeployProgram make_deploy_program(const StentPlace& place, const deck::Deployment& deployment) {
-    const double cut = place.pattern.diameter / 2, crimped = place.crimped_diameter / 2, opened = place.diameter / 2, strut = place.pattern.strut_thickness;
-    const double folded = crimped - strut, full = opened - strut;   // the balloon that it is crimped onto; its inner face when it is open
+    const double cut = place.pattern.diameter / 2, crimped = place.crimped_diameter / 2, opened = place.diameter / 2,
+                 strut = place.pattern.strut_thickness;
+    const double folded = crimped - strut,
+                 full = opened - strut;   // the balloon that it is crimped onto; its inner face when it is open
     const double ramp = deployment.ramp;
     DeployProgram program;
     double time = 0;
@@ -45,9 +47,11 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     }
     if (deployment.predilation) {
         if (!is_crimped) add(DeployPhase::release, way);   // while nothing happens to the stent
-        const double small = 0.25 * std::min(place.narrowest, *deployment.predilation), wide = *deployment.predilation / 2, from = time;
+        const double small = 0.25 * std::min(place.narrowest, *deployment.predilation),
+                     wide = *deployment.predilation / 2, from = time;
         add(DeployPhase::enter, entering * ramp);
-        program.predilation = ramped_radius({0, from, time}, {small, wide, folded});   // and hands the wall over to the folded balloon
+        program.predilation =
+            ramped_radius({0, from, time}, {small, wide, folded});   // and hands the wall over to the folded balloon
     }
     program.open_from = time;
     add(DeployPhase::open, ramp);
@@ -55,7 +59,8 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     add(DeployPhase::hold, holding * ramp);
     const double deflate_from = time;
     add(DeployPhase::deflate, deflating * ramp);
-    program.balloon = ramped_radius({program.open_from, program.open_to, deflate_from, time}, {folded, full, full, folded});
+    program.balloon =
+        ramped_radius({program.open_from, program.open_to, deflate_from, time}, {folded, full, full, folded});
     add(DeployPhase::settle, settling * ramp);
     return program;
 }

@@ -17,10 +17,11 @@ std::string_view name_of(DeployPhase phase);
 struct DeployProgram {
     struct Entry {
         DeployPhase phase;
-        double end;        ///< [s]; it begins where the one before ends
+        double end;   ///< [s]; it begins where the one before ends
     };
-    std::vector<Entry> phases;                         ///< those that last
-    std::function<double(double time)> crimper, balloon, predilation;   ///< radii [m]; predilation: empty if there is none
+    std::vector<Entry> phases;   ///< those that last
+    std::function<double(double time)> crimper, balloon,
+        predilation;                                   ///< radii [m]; predilation: empty if there is none
     double open_from = 0, open_to = 0;                 ///< when the stent is opened [s]
     double end() const { return phases.back().end; }   ///< [s]
 };

@@ -27,7 +27,8 @@ OuterFaces outer_faces_of(const StrutCurves& curves, const StentAxis& axis) {
             const int parts = std::max(1, int(std::ceil(length / (2 * strut.half_width))));   // no longer than wide
             for (int m = 0; m < parts; ++m) {
                 const double t = (m + 0.5) / parts;
-                const StentPoint at{radius, ((1 - t) * a.around + t * b.around) / curves.middle_radius, (1 - t) * a.along + t * b.along};
+                const StentPoint at{radius, ((1 - t) * a.around + t * b.around) / curves.middle_radius,
+                                    (1 - t) * a.along + t * b.along};
                 faces.places.push_back(axis.place(at));
                 faces.areas.push_back(length / parts * 2 * strut.half_width * out);
             }
@@ -42,7 +43,10 @@ std::vector<StentPoint> seen_from(const StentAxis& axis, const std::vector<Vec3>
 }
 
 int slices_for(const StentPattern& pattern) {
-    const int rings = pattern.rings > 0 ? pattern.rings : int(std::lround(2 * pattern.length / pattern.diameter));   // of a surface: as many as its cells might be round
+    const int rings = pattern.rings > 0
+                          ? pattern.rings
+                          : int(std::lround(2 * pattern.length /
+                                            pattern.diameter));   // of a surface: as many as its cells might be round
     return std::max(3, rings);
 }
 
@@ -52,7 +56,9 @@ LumenGain lumen_gain(const StentPlace& place, const VesselAlong& before, const V
     const Centreline& own = before.lines.lines[place.line];
     const auto away = [&](const Centreline& line) { return norm(line.points.back().place - own.points.back().place); };
     const auto& lines = along.lines.lines;
-    const std::size_t line = std::size_t(std::min_element(lines.begin(), lines.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); }) - lines.begin());
+    const std::size_t line = std::size_t(
+        std::min_element(lines.begin(), lines.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); }) -
+        lines.begin());
     LumenGain gain{place.narrowest, Bounds::infinity, Bounds::infinity, place.reference_diameter, 0};
     const auto& points = along.lines.lines[line].points;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -65,9 +71,12 @@ LumenGain lumen_gain(const StentPlace& place, const VesselAlong& before, const V
     return gain;
 }
 
-Json deploy_summary(const StentPlace& place, const StentProfile& shape, const StrutFit& fit, const std::vector<JailedOstium>& ostia, const LumenGain& gain) {
+Json deploy_summary(const StentPlace& place, const StentProfile& shape, const StrutFit& fit,
+                    const std::vector<JailedOstium>& ostia, const LumenGain& gain) {
     Json jailed = Json::array();
-    for (const JailedOstium& o : ostia) jailed.push_back({{"area_mm2", 1e6 * o.area}, {"centre_mm", {1e3 * o.centre.x, 1e3 * o.centre.y, 1e3 * o.centre.z}}});
+    for (const JailedOstium& o : ostia)
+        jailed.push_back(
+            {{"area_mm2", 1e6 * o.area}, {"centre_mm", {1e3 * o.centre.x, 1e3 * o.centre.y, 1e3 * o.centre.z}}});
     double ostia_area = 0;
     for (const JailedOstium& o : ostia) ostia_area += o.area;
     return {{"arc_length_mm", 1e3 * place.arc},
@@ -96,7 +105,8 @@ Json deploy_summary(const StentPlace& place, const StentProfile& shape, const St
 void write_stent_table(const std::filesystem::path& path, const StentProfile& shape) {
     CsvWriter table(path, {"along_mm", "mean_diameter_mm", "minimum_diameter_mm", "maximum_diameter_mm", "area_mm2"});
     for (const StentSlice& s : shape.slices)
-        table.write_row({1e3 * s.along, 1e3 * s.mean_diameter, 1e3 * s.least_diameter, 1e3 * s.most_diameter, 1e6 * s.area});
+        table.write_row(
+            {1e3 * s.along, 1e3 * s.mean_diameter, 1e3 * s.least_diameter, 1e3 * s.most_diameter, 1e6 * s.area});
 }
 
 }   // namespace patency

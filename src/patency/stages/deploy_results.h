@@ -13,8 +13,8 @@ namespace patency {
 
 /// The outer faces of a stent's struts: places that stand for an area each.
 struct OuterFaces {
-    std::vector<Vec3> places;     ///< [m]
-    std::vector<double> areas;    ///< [m^2]
+    std::vector<Vec3> places;    ///< [m]
+    std::vector<double> areas;   ///< [m^2]
 };
 /// Of struts as they are drawn, along an axis.
 OuterFaces outer_faces_of(const StrutCurves& curves, const StentAxis& axis);
@@ -25,9 +25,9 @@ int slices_for(const StentPattern& pattern);
 
 /// The lumen along the stent, before and after, by spheres and sections.
 struct LumenGain {
-    double narrowest_before, narrowest_after;   ///< the largest sphere that passes along the stent [m]
-    double least_area;                          ///< of the sections after [m^2]
-    double reference_diameter, reference_area;  ///< of the healthy lumen at the stent's ends [m], [m^2]
+    double narrowest_before, narrowest_after;    ///< the largest sphere that passes along the stent [m]
+    double least_area;                           ///< of the sections after [m^2]
+    double reference_diameter, reference_area;   ///< of the healthy lumen at the stent's ends [m], [m^2]
 
     double residual_stenosis() const { return 1 - narrowest_after / reference_diameter; }
 };
@@ -35,8 +35,8 @@ struct LumenGain {
 LumenGain lumen_gain(const StentPlace& place, const VesselAlong& before, const Vessel& after);
 
 /// Keys of `deploy` that hold for every mode: mode, where, and the figures of the three.
-nlohmann::ordered_json deploy_summary(const StentPlace& place, const StentProfile& shape, const StrutFit& fit, const std::vector<JailedOstium>& ostia,
-                                      const LumenGain& gain);
+nlohmann::ordered_json deploy_summary(const StentPlace& place, const StentProfile& shape, const StrutFit& fit,
+                                      const std::vector<JailedOstium>& ostia, const LumenGain& gain);
 
 /// stent.csv: a row per slice. Throws FileError.
 void write_stent_table(const std::filesystem::path& path, const StentProfile& shape);

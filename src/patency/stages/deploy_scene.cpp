@@ -15,7 +15,8 @@ namespace patency {
 
 namespace {
 
-constexpr double carrying = 3;                  // spacings that the wall's surfaces look for particles: at the edge of a cut a kernel's support has too few
+constexpr double carrying =
+    3;   // spacings that the wall's surfaces look for particles: at the edge of a cut a kernel's support has too few
 
 SolidNumerics numerics_of(const deck::Case& config, double spacing) {
     const deck::SolidSettings& s = config.numerics.solid;
@@ -24,7 +25,8 @@ SolidNumerics numerics_of(const deck::Case& config, double spacing) {
             .cfl = s.cfl,
             .hourglass = s.hourglass,
             .viscosity = s.viscosity,
-            .precision = config.numerics.precision == deck::Precision::mixed ? Precision::mixed : Precision::double_precision};
+            .precision =
+                config.numerics.precision == deck::Precision::mixed ? Precision::mixed : Precision::double_precision};
 }
 
 SolidNumerics stent_numerics(const deck::Case& config, double spacing) {
@@ -37,7 +39,10 @@ WallField field_around(const deck::Case& config, const Vessel& vessel, const Ste
     const VesselAlong& along = vessel.along.value();
     std::vector<Vec3> normals;
     for (const SurfaceOpening& o : vessel.openings) normals.push_back(o.opening.normal);
-    return {along.lines, along.assessment.healthy_diameter, normals, make_exact_distance(closed_at(vessel.checked.surface, vessel.checked.ends)),
+    return {along.lines,
+            along.assessment.healthy_diameter,
+            normals,
+            make_exact_distance(closed_at(vessel.checked.surface, vessel.checked.ends)),
             {.thickness = config.wall.thickness,
              .is_filled = config.wall.plaque == deck::Plaque::fills,
              .line = place.line,
@@ -47,7 +52,8 @@ WallField field_around(const deck::Case& config, const Vessel& vessel, const Ste
 }
 
 std::unique_ptr<SolidPart> make_wall_part(const DeployScene& scene) {
-    const VesselWall wall = make_vessel_wall(*scene.field, scene.wall_spacing, scene.config.wall.layers.adventitia_share);
+    const VesselWall wall =
+        make_vessel_wall(*scene.field, scene.wall_spacing, scene.config.wall.layers.adventitia_share);
     auto part = std::make_unique<SolidPart>();
     part->name = "wall";
     Solid& solid = part->solid;
@@ -71,7 +77,8 @@ void carry_lumen(DeployScene& scene) {
     const double size = 0.5 * scene.wall_spacing;
     const Bounds box = scene.field->bounds();
     refine_surface(scene.lumen, [&](const Vec3& x) {
-        const Vec3 out = {std::max({0.0, box.low.x - x.x, x.x - box.high.x}), std::max({0.0, box.low.y - x.y, x.y - box.high.y}),
+        const Vec3 out = {std::max({0.0, box.low.x - x.x, x.x - box.high.x}),
+                          std::max({0.0, box.low.y - x.y, x.y - box.high.y}),
                           std::max({0.0, box.low.z - x.z, x.z - box.high.z})};
         const double past = norm(out) > 0 ? norm(out) : std::max(0.0, scene.field->at(x).region);
         return size + 0.5 * past;
@@ -79,12 +86,14 @@ void carry_lumen(DeployScene& scene) {
     SurfaceElements mesh;
     for (std::uint32_t k = 0; k < scene.lumen.points.size(); ++k) {
         const Vec3& x = scene.lumen.points[k];
-        const bool is_in_box = x.x > box.low.x && x.x < box.high.x && x.y > box.low.y && x.y < box.high.y && x.z > box.low.z && x.z < box.high.z;
+        const bool is_in_box = x.x > box.low.x && x.x < box.high.x && x.y > box.low.y && x.y < box.high.y &&
+                               x.z > box.low.z && x.z < box.high.z;
         if (!is_in_box || scene.field->at(x).region > -0.5 * scene.wall_spacing) continue;
         scene.carried_points.push_back(k);
         mesh.vertices.push_back(x);
     }
-    scene.carrier = std::make_unique<SolidSurface>(mesh, scene.wall->body->particles(), carrying * scene.wall_spacing, false);
+    scene.carrier =
+        std::make_unique<SolidSurface>(mesh, scene.wall->body->particles(), carrying * scene.wall_spacing, false);
 }
 
 }   // namespace
@@ -95,7 +104,8 @@ std::vector<SolidMaterial> wall_materials(const deck::Wall& wall) {
     const auto make = [&](const std::optional<deck::SolidMaterialChoice>& said, const std::string& layer) {
         return said ? make_solid_material(*said, "wall.layers." + layer) : make_solid_material(usual, "wall.law");
     };
-    return {make(wall.layers.plaque, "plaque"), make(wall.layers.media, "media"), make(wall.layers.adventitia, "adventitia")};
+    return {make(wall.layers.plaque, "plaque"), make(wall.layers.media, "media"),
+            make(wall.layers.adventitia, "adventitia")};
 }
 
 SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& pattern) {
@@ -107,7 +117,9 @@ SolidMaterial stent_material(const deck::Stent& stent, const StentPattern& patte
 
 double usual_wall_spacing(double thickness) { return std::min(0.2e-3, thickness / 4); }
 
-double network_resolution(const deck::Case& config) { return config.wall.spacing.value_or(usual_wall_spacing(INFINITY)); }
+double network_resolution(const deck::Case& config) {
+    return config.wall.spacing.value_or(usual_wall_spacing(INFINITY));
+}
 
 double stent_mass_scaling(const deck::Case& config, const StentPlace& place, double spacing) {
     const deck::Deployment& d = config.deployment;
@@ -115,7 +127,9 @@ double stent_mass_scaling(const deck::Case& config, const StentPlace& place, dou
     const SolidMaterial metal = stent_material(*config.stent, place.pattern);
     const SolidNumerics n = stent_numerics(config, spacing);
     const double wave = n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density));
-    const double step = stent_step_share(place.form) * second_order_share * std::sqrt(stent_particle_mass_scaling) * wave, wanted = d.ramp / d.steps;
+    const double step =
+                     stent_step_share(place.form) * second_order_share * std::sqrt(stent_particle_mass_scaling) * wave,
+                 wanted = d.ramp / d.steps;
     return std::max(1.0, (wanted / step) * (wanted / step));
 }
 

@@ -17,13 +17,14 @@ struct DeployScene {
     Vessel vessel;
     StentPlace place;
     std::optional<WallField> field;
-    double wall_spacing = 0, stent_spacing = 0;    ///< [m]
-    double mass_scaling = 1;                       ///< of the stent
-    std::unique_ptr<SolidPart> wall, stent;        ///< until they are in `solids`; the wall's materials are its layers (WallLayer)
-    SolidScene solids;                             ///< what moves now
-    Surface lumen;                                 ///< the vessel's surface, fine where the wall carries it
-    std::vector<std::uint32_t> carried_points;     ///< of it
-    std::unique_ptr<SolidSurface> carrier;         ///< of these points, in their order
+    double wall_spacing = 0, stent_spacing = 0;   ///< [m]
+    double mass_scaling = 1;                      ///< of the stent
+    std::unique_ptr<SolidPart> wall,
+        stent;           ///< until they are in `solids`; the wall's materials are its layers (WallLayer)
+    SolidScene solids;   ///< what moves now
+    Surface lumen;       ///< the vessel's surface, fine where the wall carries it
+    std::vector<std::uint32_t> carried_points;   ///< of it
+    std::unique_ptr<SolidSurface> carrier;       ///< of these points, in their order
 
     /// The vessel's surface where the wall is now.
     Surface lumen_now(const SolidParticles& wall_particles);

@@ -36,7 +36,8 @@ PolyData skin_of(SolidPart& part) {
     PolyData data;
     data.points = surface.position;
     data.triangles = surface.mesh().elements;
-    PointArray displacement{"displacement", "m", 3}, stress{"von_mises_stress", "Pa", 1, surface.carried(von_mises_of(part))};
+    PointArray displacement{"displacement", "m", 3},
+        stress{"von_mises_stress", "Pa", 1, surface.carried(von_mises_of(part))};
     for (std::size_t v = 0; v < surface.size(); ++v) {
         const Vec3 u = surface.position[v] - surface.mesh().vertices[v];
         displacement.values.insert(displacement.values.end(), {u.x, u.y, u.z});
@@ -45,7 +46,8 @@ PolyData skin_of(SolidPart& part) {
     data.arrays = {std::move(displacement), std::move(stress)};
     if (yields(part)) {
         const SolidParticles& p = part.body->particles();
-        PointArray strain{"plastic_strain", "1", 1, surface.carried({p.plastic_strain.begin(), p.plastic_strain.end()})};
+        PointArray strain{"plastic_strain", "1", 1,
+                          surface.carried({p.plastic_strain.begin(), p.plastic_strain.end()})};
         for (double& s : strain.values) s = std::max(0.0, s);
         data.arrays.push_back(std::move(strain));
     }
@@ -53,7 +55,9 @@ PolyData skin_of(SolidPart& part) {
 }
 
 Json percentiles(const std::vector<double>& values, const std::vector<double>& weights) {
-    return {{"p50", weighted_percentile(values, weights, 0.50)}, {"p95", weighted_percentile(values, weights, 0.95)}, {"p99", weighted_percentile(values, weights, 0.99)},
+    return {{"p50", weighted_percentile(values, weights, 0.50)},
+            {"p95", weighted_percentile(values, weights, 0.95)},
+            {"p99", weighted_percentile(values, weights, 0.99)},
             {"largest", values.empty() ? 0.0 : *std::max_element(values.begin(), values.end())}};
 }
 
@@ -90,7 +94,8 @@ PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen) {
 
 PolyData wall_picture(SolidPart& wall) { return skin_of(wall); }
 
-Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length, const std::vector<Contact::Push>& pushes) {
+Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
+                   const std::vector<Contact::Push>& pushes) {
     const std::vector<double> wall_stress = von_mises_of(wall);
     const SolidParticles& w = wall.body->particles();
     Json layers = Json::object(), strains = Json::object();
@@ -101,7 +106,8 @@ Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, dou
                 stress.push_back(wall_stress[i]), strain.push_back(w.plastic_strain[i]), volume.push_back(w.volume[i]);
         if (stress.empty()) continue;
         layers[std::string(name_of(layer))] = percentiles(stress, volume);
-        if (yields(wall.body->solid().materials[std::size_t(layer)])) strains[std::string(name_of(layer))] = percentiles(strain, volume);
+        if (yields(wall.body->solid().materials[std::size_t(layer)]))
+            strains[std::string(name_of(layer))] = percentiles(strain, volume);
     }
     const SolidParticles& s = stent.body->particles();
     const std::vector<double> volume(s.volume.begin(), s.volume.end());

@@ -28,6 +28,7 @@ PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen);
 PolyData wall_picture(SolidPart& wall);
 
 /// Percentiles of the wall's von Mises stress along the stent, layer by layer; of the stent's plastic strain and stress; of the pressure on its outer face.
-nlohmann::ordered_json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length, const std::vector<Contact::Push>& pushes);
+nlohmann::ordered_json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
+                                     const std::vector<Contact::Push>& pushes);
 
 }   // namespace patency

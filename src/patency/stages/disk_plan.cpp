@@ -18,9 +18,12 @@ constexpr double lines_and_tables = 0.5e6, page = 1.5e6, opened_stent = 2.9e6;
 
 double flow_disk(const deck::Case& config, double blood, double wall, const Vessel* vessel) {
     const bool moves = config.scheme() != deck::SchemeName::cells;
-    const double frames = moves && config.output.interval ? std::floor(config.numerics.duration / *config.output.interval) + 1 : 1;
-    const double bodies = moves ? frames * per_moving_particle * blood + per_checkpoint_particle * (blood + wall) : per_cell * blood;
-    return bodies + page + (vessel ? lines_and_tables + per_surface_point * double(vessel->checked.surface.points.size()) : 0);
+    const double frames =
+        moves && config.output.interval ? std::floor(config.numerics.duration / *config.output.interval) + 1 : 1;
+    const double bodies =
+        moves ? frames * per_moving_particle * blood + per_checkpoint_particle * (blood + wall) : per_cell * blood;
+    return bodies + page +
+           (vessel ? lines_and_tables + per_surface_point * double(vessel->checked.surface.points.size()) : 0);
 }
 
 double deploy_disk(const deck::Case& config, const DeployPlan& plan, const Vessel& vessel) {

@@ -25,8 +25,10 @@ double mean_of_table(const deck::ProfileTable& table, Section section) {
     // Exact for the piecewise linear profile: integral of u(s) 2 s ds (disc) or u(s) ds (gap).
     double sum = 0;
     const auto add = [&](double a, double b, double ua, double ub) {
-        if (section == Section::planar) sum += 0.5 * (b - a) * (ua + ub);
-        else sum += (b - a) / 3 * (ua * (2 * a + b) + ub * (a + 2 * b));
+        if (section == Section::planar)
+            sum += 0.5 * (b - a) * (ua + ub);
+        else
+            sum += (b - a) / 3 * (ua * (2 * a + b) + ub * (a + 2 * b));
     };
     add(0, table.radii.front(), table.speeds.front(), table.speeds.front());
     for (std::size_t k = 1; k < table.radii.size(); ++k)
@@ -37,7 +39,8 @@ double mean_of_table(const deck::ProfileTable& table, Section section) {
 double value_of_table(const deck::ProfileTable& table, double s) {
     if (s > table.radii.back()) return 0;
     if (s <= table.radii.front()) return table.speeds.front();
-    const std::size_t k = std::size_t(std::lower_bound(table.radii.begin(), table.radii.end(), s) - table.radii.begin());
+    const std::size_t k =
+        std::size_t(std::lower_bound(table.radii.begin(), table.radii.end(), s) - table.radii.begin());
     const double f = (s - table.radii[k - 1]) / (table.radii[k] - table.radii[k - 1]);
     return table.speeds[k - 1] + f * (table.speeds[k] - table.speeds[k - 1]);
 }
@@ -49,7 +52,8 @@ double peak_to_mean(const deck::Opening& said, Section section) {
             const auto& speeds = said.profile_table->speeds;
             const double mean = mean_of_table(*said.profile_table, section);
             if (!(std::abs(mean) > 0)) throw DeckError("a profile_table without a mean cannot be scaled to a flow");
-            const auto largest = std::max_element(speeds.begin(), speeds.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+            const auto largest = std::max_element(speeds.begin(), speeds.end(),
+                                                  [](double a, double b) { return std::abs(a) < std::abs(b); });
             return *largest / mean;
         }
         case deck::VelocityProfile::parabola:
@@ -61,13 +65,16 @@ double peak_to_mean(const deck::Opening& said, Section section) {
 
 Waveform scaled(const deck::Opening& said, const deck::Case& config, double area, double mean_over_peak) {
     using deck::OpeningType;
-    const auto per_case = [&](Dimension dimension, double factor) { return make_signal_waveform(*said.waveform, config, dimension, factor); };
+    const auto per_case = [&](Dimension dimension, double factor) {
+        return make_signal_waveform(*said.waveform, config, dimension, factor);
+    };
     switch (said.type) {
         case OpeningType::velocity:
             if (said.waveform) return per_case(Dimension::velocity, area);
             return make_constant(area * (said.velocity ? *said.velocity : *said.peak_velocity * mean_over_peak));
         case OpeningType::flow: return said.waveform ? per_case(Dimension::flow, 1) : make_constant(*said.flow);
-        case OpeningType::pressure: return said.waveform ? per_case(Dimension::pressure, 1) : make_constant(*said.pressure);
+        case OpeningType::pressure:
+            return said.waveform ? per_case(Dimension::pressure, 1) : make_constant(*said.pressure);
         default: return {};
     }
 }
@@ -88,7 +95,8 @@ double startup_flow(double tau) {
     constexpr double pi = std::numbers::pi, negligible = 45;
     const double decay = pi * pi * tau;
     double sum = 0;
-    for (int k = 1; k < 4000 && k * (k * decay) < negligible; k += 2) sum += std::exp(-k * (k * decay)) / std::pow(k, 4);
+    for (int k = 1; k < 4000 && k * (k * decay) < negligible; k += 2)
+        sum += std::exp(-k * (k * decay)) / std::pow(k, 4);
     return 1 - 96 / (pi * pi * pi * pi) * sum;
 }
 
@@ -97,7 +105,7 @@ double startup_rate(const Opening& opening, const deck::Blood& blood) {
     return blood.viscosity / blood.density / (4 * opening.radius * opening.radius);
 }
 
-}  // namespace
+}   // namespace
 
 EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config) {
     try {
@@ -106,14 +114,20 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
         if (law.prescribes_flow())
             law.peak_to_mean = peak_to_mean(said, opening.planar ? Section::planar : Section::circular);
         law.signal = {scaled(said, config, opening.area, 1 / law.peak_to_mean), said.ramp};
-        if (said.type == deck::OpeningType::resistance) law.outlet = Resistance{said.resistance.value(), said.distal_pressure};
+        if (said.type == deck::OpeningType::resistance)
+            law.outlet = Resistance{said.resistance.value(), said.distal_pressure};
         if (said.type == deck::OpeningType::rcr)
             law.outlet = Rcr{said.proximal_resistance, said.compliance, said.distal_resistance, said.distal_pressure};
         if (said.type == deck::OpeningType::coronary)
-            law.outlet = Coronary{said.proximal_resistance, said.compliance, said.microvascular_resistance, said.myocardial_compliance,
-                                  said.distal_resistance, said.distal_pressure,
+            law.outlet = Coronary{said.proximal_resistance,
+                                  said.compliance,
+                                  said.microvascular_resistance,
+                                  said.myocardial_compliance,
+                                  said.distal_resistance,
+                                  said.distal_pressure,
                                   make_signal_waveform(*said.myocardial_pressure, config, Dimension::pressure, 1)};
-        if (law.outlet && !(said.type == deck::OpeningType::resistance && said.resistance == 0)) expect_valid(*law.outlet);
+        if (law.outlet && !(said.type == deck::OpeningType::resistance && said.resistance == 0))
+            expect_valid(*law.outlet);
         if (law.outlet) law.state = make_steady_state(*law.outlet, 0);
         if (said.initial_pressure) law.state[0] = *said.initial_pressure;
         law.level_state = law.state;
@@ -128,13 +142,19 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
     const Section section = opening.planar ? Section::planar : Section::circular;
     const double area = opening.area, radius = opening.radius;
     const Vec3 inwards = -opening.normal;
-    const auto place = [opening, radius](const Vec3& x) { return norm(opening_coordinates(opening, x).radial) / radius; };
+    const auto place = [opening, radius](const Vec3& x) {
+        return norm(opening_coordinates(opening, x).radial) / radius;
+    };
     const auto mean_speed = [signal = law.signal, area](double time) { return signal(time) / area; };
     switch (said.profile) {
         case deck::VelocityProfile::plug:
-            return [=](const Vec3&, double time) { return mean_speed(time) * inwards; };   // beside a wall too: a plug slips
+            return [=](const Vec3&, double time) {
+                return mean_speed(time) * inwards;
+            };   // beside a wall too: a plug slips
         case deck::VelocityProfile::parabola:
-            return [=](const Vec3& x, double time) { return mean_speed(time) * parabola_profile(section, place(x)) * inwards; };
+            return [=](const Vec3& x, double time) {
+                return mean_speed(time) * parabola_profile(section, place(x)) * inwards;
+            };
         case deck::VelocityProfile::table: {
             const double mean = mean_of_table(*said.profile_table, section);
             return [=, table = *said.profile_table](const Vec3& x, double time) {
@@ -143,7 +163,8 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
         }
         case deck::VelocityProfile::developed_startup: {
             if (section != Section::planar)
-                throw DeckError(fmt::format("openings.{}.profile: developed_startup is known between plates only", opening.name));
+                throw DeckError(
+                    fmt::format("openings.{}.profile: developed_startup is known between plates only", opening.name));
             const double rate = startup_rate(opening, blood), to_peak = law.peak_to_mean;
             return [=](const Vec3& x, double time) {
                 const double s = std::min(place(x), 1.0);
@@ -170,7 +191,9 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
 std::function<double(double)> make_end_flow(const Opening& opening, const deck::Opening& said, const EndLaw& law,
                                             const deck::Blood& blood) {
     if (said.profile == deck::VelocityProfile::developed_startup)
-        return [signal = law.signal, rate = startup_rate(opening, blood)](double time) { return signal(time) * startup_flow(rate * time); };
+        return [signal = law.signal, rate = startup_rate(opening, blood)](double time) {
+            return signal(time) * startup_flow(rate * time);
+        };
     if (said.profile == deck::VelocityProfile::womersley)
         return Signal{make_waveform(make_fourier_series(law.signal.waveform, womersley_modes)), law.signal.ramp};
     return law.signal;
@@ -192,7 +215,8 @@ double network_pressure(std::span<EndLaw> laws, double time, double ahead) {
         if (law.prescribes_flow()) inflow += law.signal(time + ahead);
         if (!law.outlet) continue;
         if (law.is_started && time > law.known_until)
-            law.level_state = advanced(*law.outlet, law.level_state, {law.known_until, time - law.known_until}, law.level_flow);
+            law.level_state =
+                advanced(*law.outlet, law.level_state, {law.known_until, time - law.known_until}, law.level_flow);
         responses[k] = step_response(*law.outlet, law.level_state, {time, ahead});
         // An outlet without resistance sets the pressure: a very large conductance says so without a special case.
         responses[k].dp_dq = std::max(responses[k].dp_dq, least_resistance);
@@ -214,7 +238,7 @@ double moving_level(std::span<EndLaw> laws, double time, double ahead) {
     return prescribed > 0 ? sum / prescribed : network_pressure(laws, time, ahead);
 }
 
-}  // namespace
+}   // namespace
 
 void impose_laws_ahead(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt) {
     for (std::size_t k = 0; k < laws.size(); ++k) {
@@ -237,7 +261,8 @@ void advance_laws(std::span<EndLaw> laws, std::span<const OpenEnd> ends, double 
     }
 }
 
-double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt, deck::PressureReference reference) {
+double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt,
+                   deck::PressureReference reference) {
     // The pressure of a kick stands in the middle of its step (THEORY.md (7.2)).
     const double ahead = 0.5 * dt;
     const double level = reference == deck::PressureReference::moving ? moving_level(laws, time, ahead) : 0;
@@ -250,7 +275,8 @@ double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time,
         }
         const double flow = ends[k].flow;
         if (law.outlet && law.is_started && time > law.known_until)
-            law.state = advanced(*law.outlet, law.state, {law.known_until, time - law.known_until}, law.known_flow, flow);
+            law.state =
+                advanced(*law.outlet, law.state, {law.known_until, time - law.known_until}, law.known_flow, flow);
         law.known_until = time;
         law.known_flow = flow;
         law.is_started = true;
@@ -265,4 +291,4 @@ double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time,
     return level;
 }
 
-}  // namespace patency
+}   // namespace patency

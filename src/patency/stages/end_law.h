@@ -30,14 +30,14 @@ struct EndLaw {
     std::optional<OutletModel> outlet;   ///< of resistance, rcr and coronary
 
     // The state, kept in checkpoints.
-    OutletState state{};                 ///< at time `known_until`
+    OutletState state{};                      ///< at time `known_until`
     double known_until = 0, known_flow = 0;   ///< [s], [m^3/s] out of the domain
-    double known_pressure = 0;           ///< at the plane then, of a scheme that integrates by trapezia [Pa]
+    double known_pressure = 0;                ///< at the plane then, of a scheme that integrates by trapezia [Pa]
     bool is_started = false;
-    OutletState level_state{};           ///< of the same model in the network that gives the moving level
-    double level_flow = 0;               ///< into it there [m^3/s]
-    double volume_out = 0;               ///< since the start [m^3]
-    double pressure_time = 0;            ///< integral of the mean pressure at the plane [Pa s]
+    OutletState level_state{};   ///< of the same model in the network that gives the moving level
+    double level_flow = 0;       ///< into it there [m^3/s]
+    double volume_out = 0;       ///< since the start [m^3]
+    double pressure_time = 0;    ///< integral of the mean pressure at the plane [Pa s]
 
     bool prescribes_flow() const { return type == deck::OpeningType::velocity || type == deck::OpeningType::flow; }
 };
@@ -62,7 +62,8 @@ std::function<double(double)> make_end_flow(const Opening& opening, const deck::
 /// That level is a function of time, never of the flow that the particles answer with. A level that follows the measured
 /// flows makes every outlet echo into the others: with resistances r_1 and r_2 (over rho c / A) and the level at r_1,
 /// waves between two outlets grow for r_1 > r_2. So each outlet stays passive, whatever it is made of.
-double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt, deck::PressureReference reference);
+double impose_laws(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt,
+                   deck::PressureReference reference);
 
 /// For a scheme that finds pressure and flow at the end of a step together: what holds there, dt after `time` [s].
 void impose_laws_ahead(std::span<EndLaw> laws, std::span<OpenEnd> ends, double time, double dt);
@@ -72,4 +73,4 @@ void advance_laws(std::span<EndLaw> laws, std::span<const OpenEnd> ends, double 
 /// The response of a pressure-like end at `time` to the flow [m^3/s] a time `ahead` [s] later.
 OutletResponse response_of(const EndLaw& law, double time, double ahead);
 
-}  // namespace patency
+}   // namespace patency

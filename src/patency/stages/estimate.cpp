@@ -159,7 +159,8 @@ std::vector<Vec3> reading_places(const Estimate& estimate, const VesselAlong& al
     std::vector<Vec3> places;
     for (const EstimatedLesion& lesion : estimate.lesions) {
         const auto& points = along.lines.lines[along.assessment.lesions[lesion.number].line].points;
-        const auto at = std::lower_bound(points.begin(), points.end(), lesion.read_arc, [](const CentrelinePoint& p, double arc) { return p.arc < arc; });
+        const auto at = std::lower_bound(points.begin(), points.end(), lesion.read_arc,
+                                         [](const CentrelinePoint& p, double arc) { return p.arc < arc; });
         places.push_back(at == points.end() ? points.back().place : at->place);
     }
     return places;
@@ -169,10 +170,13 @@ std::optional<double> ffr_near(const Estimate& e, const VesselAlong& along, cons
     std::optional<double> ffr;
     double least = Bounds::infinity;
     for (std::size_t b = 0; b < e.tree.branches.size(); ++b) {
-        const std::size_t stations = e.tree.branches[b].arc.size();   // the branch's points, and its bifurcation's before them
+        const std::size_t stations =
+            e.tree.branches[b].arc.size();   // the branch's points, and its bifurcation's before them
         const Branch& branch = along.lines.branches[b];
         for (std::size_t k = 0; k < stations; ++k)
-            if (const double away = norm(along.lines.point(branch, branch.last + 1 - stations + k).place - place); away < least) least = away, ffr = e.ffr(b, k);
+            if (const double away = norm(along.lines.point(branch, branch.last + 1 - stations + k).place - place);
+                away < least)
+                least = away, ffr = e.ffr(b, k);
     }
     return ffr;
 }

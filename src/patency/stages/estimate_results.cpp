@@ -75,9 +75,11 @@ Json estimate_summary(const deck::Case& config, const Vessel& vessel, const Esti
     return summary;
 }
 
-Json estimate_after_summary(const deck::Case& before, const Vessel& vessel_before, const deck::Case& after, const Vessel& vessel_after) {
+Json estimate_after_summary(const deck::Case& before, const Vessel& vessel_before, const deck::Case& after,
+                            const Vessel& vessel_after) {
     const VesselAlong& along = vessel_before.along.value();
-    const Estimate estimate_before = estimate_flow(before, vessel_before), estimate = estimate_flow(after, vessel_after);
+    const Estimate estimate_before = estimate_flow(before, vessel_before),
+                   estimate = estimate_flow(after, vessel_after);
     const std::vector<Vec3> places = reading_places(estimate_before, along);
     const EstimateBand band = estimate_band(after, vessel_after, places);
     Json summary = estimate_summary(after, vessel_after, estimate, band), at_lesions = Json::array();
@@ -103,7 +105,8 @@ Pullback estimate_pullback(const Vessel& vessel, const Estimate& e) {
             if (std::find(through.begin(), through.end(), line) == through.end()) continue;
             const TreeBranch& branch = e.tree.branches[b];
             for (std::size_t k = 0; k < branch.arc.size(); ++k) {
-                p.rows.push_back({branch.arc[k], double(line + 1), branch.area[k], e.flow.flow[b], e.flow.pressure[b][k]});
+                p.rows.push_back(
+                    {branch.arc[k], double(line + 1), branch.area[k], e.flow.flow[b], e.flow.pressure[b][k]});
                 if (e.aortic_pressure) p.rows.back().push_back(*e.ffr(b, k));
             }
         }

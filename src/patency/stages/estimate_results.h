@@ -16,7 +16,8 @@ nlohmann::ordered_json estimate_summary(const deck::Case& config, const Vessel& 
 
 /// Of a treated vessel, with FFR and its band where the lesions of the vessel before had theirs read ("at_lesions", as these lesions).
 /// `before` and `after` are the decks, the vessels theirs.
-nlohmann::ordered_json estimate_after_summary(const deck::Case& before, const Vessel& vessel_before, const deck::Case& after, const Vessel& vessel_after);
+nlohmann::ordered_json estimate_after_summary(const deck::Case& before, const Vessel& vessel_before,
+                                              const deck::Case& after, const Vessel& vessel_after);
 
 /// Along the line to every outlet, one after the other: arc, number of the outlet (1: the first after the inlet), area, flow, static
 /// pressure and, with an aortic pressure, FFR.

@@ -12,7 +12,8 @@ namespace patency {
 EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
     const VesselAlong& along = *vessel.along;
     lowest_ = highest_ = estimate.flow.inlet_pressure;
-    const double rho = estimate.tree.blood.density, at_inlet = 2 * estimate.flow.flow[0] / estimate.tree.branches[0].area[0];
+    const double rho = estimate.tree.blood.density,
+                 at_inlet = 2 * estimate.flow.flow[0] / estimate.tree.branches[0].area[0];
     for (std::size_t b = 0; b < along.lines.branches.size(); ++b) {
         const Branch& branch = along.lines.branches[b];
         const TreeBranch& tree = estimate.tree.branches[b];
@@ -26,9 +27,11 @@ EstimatedField::EstimatedField(const Vessel& vessel, const Estimate& estimate) {
             const double slope = (pressure[after] - pressure[before]) / (tree.arc[after] - tree.arc[before]);
             const bool is_within = first + k > branch.first && first + k < branch.last;
             const double reach = is_within ? 0.5 * (tree.arc[after] - tree.arc[before]) : 0;
-            stations_.push_back({b, p.place, p.tangent, p.radius, mean, estimate.flow.profile[b][k], pressure[k], slope, reach});
+            stations_.push_back(
+                {b, p.place, p.tangent, p.radius, mean, estimate.flow.profile[b][k], pressure[k], slope, reach});
             // No streamline gains more than its pressure loses (Bernoulli): a jet's profile is flatter than a parabola.
-            const double bernoulli = std::sqrt(at_inlet * at_inlet + 2 * std::max(0.0, estimate.flow.inlet_pressure - pressure[k]) / rho);
+            const double bernoulli =
+                std::sqrt(at_inlet * at_inlet + 2 * std::max(0.0, estimate.flow.inlet_pressure - pressure[k]) / rho);
             largest_speed_ = std::max(largest_speed_, std::min(2 * std::abs(mean), bernoulli));
             lowest_ = std::min(lowest_, pressure[k]), highest_ = std::max(highest_, pressure[k]);
         }
@@ -63,7 +66,8 @@ void EstimatedField::for_each_near(const Vec3& x, Visit visit) const {
     for (long c = std::max(0L, k - 1); c <= std::min(boxes_[2] - 1, k + 1); ++c)
         for (long b = std::max(0L, j - 1); b <= std::min(boxes_[1] - 1, j + 1); ++b)
             for (long a = std::max(0L, i - 1); a <= std::min(boxes_[0] - 1, i + 1); ++a)
-                for (std::uint32_t n : inside_[std::size_t(a + boxes_[0] * (b + boxes_[1] * c))]) visit(n), is_any = true;
+                for (std::uint32_t n : inside_[std::size_t(a + boxes_[0] * (b + boxes_[1] * c))])
+                    visit(n), is_any = true;
     if (is_any) return;
     for (std::size_t n = 0; n < stations_.size(); ++n) visit(n);
 }
@@ -82,18 +86,22 @@ std::size_t EstimatedField::nearest(const Vec3& x) const {
         return found;
     };
     const auto square = [&](const Station& s) { return dot(x - s.place, x - s.place); };
-    const std::size_t branch = stations_[least_of([&](const Station& s) { return square(s) - s.radius * s.radius; })].branch;
-    return least_of([&](const Station& s) { return s.branch == branch ? square(s) : std::numeric_limits<double>::infinity(); });
+    const std::size_t branch =
+        stations_[least_of([&](const Station& s) { return square(s) - s.radius * s.radius; })].branch;
+    return least_of(
+        [&](const Station& s) { return s.branch == branch ? square(s) : std::numeric_limits<double>::infinity(); });
 }
 
-std::vector<double> EstimatedField::carried(std::span<const Vec3> places, std::span<const Vec3> velocities, double volume) const {
+std::vector<double> EstimatedField::carried(std::span<const Vec3> places, std::span<const Vec3> velocities,
+                                            double volume) const {
     std::vector<double> flow, length;
     for (const Station& s : stations_) {
         flow.resize(std::max(flow.size(), s.branch + 1)), length.resize(flow.size());
         length[s.branch] += s.reach;
     }
     for (std::size_t i = 0; i < places.size(); ++i)
-        if (const Station& s = stations_[nearest(places[i])]; s.reach > 0) flow[s.branch] += volume * dot(velocities[i], s.tangent);
+        if (const Station& s = stations_[nearest(places[i])]; s.reach > 0)
+            flow[s.branch] += volume * dot(velocities[i], s.tangent);
     for (std::size_t b = 0; b < flow.size(); ++b) flow[b] = length[b] > 0 ? flow[b] / length[b] : 0;
     return flow;
 }

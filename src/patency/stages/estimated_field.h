@@ -31,18 +31,18 @@ public:
     /// branch's length between its bifurcations and ends. 0 of a branch too short to tell.
     std::vector<double> carried(std::span<const Vec3> places, std::span<const Vec3> velocities, double volume) const;
 
-    double largest_speed() const { return largest_speed_; }         ///< on an axis [m/s]
+    double largest_speed() const { return largest_speed_; }        ///< on an axis [m/s]
     double pressure_range() const { return highest_ - lowest_; }   ///< [Pa]
 
 private:
     struct Station {
         std::size_t branch;
         Vec3 place, tangent;
-        double radius;           // of the largest sphere [m]
-        double mean_velocity;    // [m/s]
+        double radius;          // of the largest sphere [m]
+        double mean_velocity;   // [m/s]
         TreeProfile profile;
-        double pressure, slope;  // [Pa], along the tangent [Pa/m]
-        double reach;            // what it stands for of a tube; 0 at its ends and in bifurcations [m]
+        double pressure, slope;   // [Pa], along the tangent [Pa/m]
+        double reach;             // what it stands for of a tube; 0 at its ends and in bifurcations [m]
     };
     std::size_t nearest(const Vec3& place) const;
     std::array<long, 3> box_of(const Vec3& place) const;

@@ -19,9 +19,10 @@ void expect_no_collapse(const Scene& scene, const FlowStep& step, double longest
     const double h = scene.numerics.smoothing_ratio * scene.numerics.spacing;
     const double advective = scene.numerics.advection_cfl * h / scene.numerics.reference_speed;
     if (step.dt >= longest * (1 - 1e-12) || step.fastest * shortest_share <= scene.numerics.reference_speed) return;
-    throw DivergedError(fmt::format("the time step collapsed at {:.6g} s: {:.3g} s where {:.3g} s were expected, because the blood reaches "
-                                    "{:.3g} m/s instead of {:.3g} m/s; give numerics.reference_speed if that is meant",
-                                    scene.time, step.dt, advective, step.fastest, scene.numerics.reference_speed));
+    throw DivergedError(fmt::format(
+        "the time step collapsed at {:.6g} s: {:.3g} s where {:.3g} s were expected, because the blood reaches "
+        "{:.3g} m/s instead of {:.3g} m/s; give numerics.reference_speed if that is meant",
+        scene.time, step.dt, advective, step.fastest, scene.numerics.reference_speed));
 }
 
 /// Adds what the ends did in the last acoustic step to their integrals.
@@ -38,14 +39,15 @@ void update_ends(Scene& scene, double time, double dt) {
     scene.unsettled = dt;
 }
 
-}  // namespace
+}   // namespace
 
 void start_scheme(Scene& scene) {
     const FlowDomain domain{scene.fluid, scene.wall, scene.ends, *scene.frame,
                             [&lumen = scene.lumen](const Vec3& x) { return lumen.distance.value(x); }};
     const bool is_mixed = scene.config.numerics.precision == deck::Precision::mixed;
     const auto make = scene.config.scheme() == deck::SchemeName::paper ? make_paper_scheme : make_flow_scheme;
-    scene.scheme = make(is_mixed ? Precision::mixed : Precision::double_precision, domain, scene.material, scene.numerics);
+    scene.scheme =
+        make(is_mixed ? Precision::mixed : Precision::double_precision, domain, scene.material, scene.numerics);
     scene.scheme->update_ends = [&scene](std::span<OpenEnd>, double time, double dt) { update_ends(scene, time, dt); };
     scene.scheme->settle_ends = [&scene] { settle(scene); };
 }
@@ -71,4 +73,4 @@ void advance(Scene& scene, const FlowRun& run) {
     }
 }
 
-}  // namespace patency
+}   // namespace patency

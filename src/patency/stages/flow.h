@@ -25,4 +25,4 @@ struct FlowRun {
 /// Steps until scene.time is exactly `until`. Throws DivergedError: what, where, when.
 void advance(Scene& scene, const FlowRun& run);
 
-}  // namespace patency
+}   // namespace patency

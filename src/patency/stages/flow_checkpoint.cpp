@@ -33,7 +33,8 @@ FlowMark read_mark(const CheckpointReader& reader, const std::string& name) {
 void write_window(CheckpointWriter& writer, const FlowWindow::State& state) {
     if (state.begin) write_mark(writer, "window/begin", *state.begin);
     writer.write("window/marks", std::int64_t(state.marks.size()));
-    for (std::size_t k = 0; k < state.marks.size(); ++k) write_mark(writer, "window/mark_" + std::to_string(k), state.marks[k]);
+    for (std::size_t k = 0; k < state.marks.size(); ++k)
+        write_mark(writer, "window/mark_" + std::to_string(k), state.marks[k]);
     writer.write("window/quiet_windows", std::int64_t(state.quiet_windows));
     writer.write("window/end", state.end);
     writer.write("window/change_percent", state.change_percent);
@@ -52,7 +53,7 @@ VesselRecorder::State read_means(const CheckpointReader& reader, const std::stri
     return {numbers("/flows"), numbers("/shear"), numbers("/pressure"), numbers("/cut")};
 }
 
-}  // namespace
+}   // namespace
 
 CheckpointOrigin origin_of(const deck::Case& config, const std::string& binary_hash) {
     deck::Case alike = config;
@@ -98,7 +99,8 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
     if (vessel) {
         write_means(writer, "vessel", vessel->state());
         writer.write("vessel/blocks", std::int64_t(vessel->finished().size()));
-        for (std::size_t k = 0; k < vessel->finished().size(); ++k) write_means(writer, "vessel/block_" + std::to_string(k), vessel->finished()[k]);
+        for (std::size_t k = 0; k < vessel->finished().size(); ++k)
+            write_means(writer, "vessel/block_" + std::to_string(k), vessel->finished()[k]);
     }
     writer.finish();
 }
@@ -120,7 +122,8 @@ std::unique_ptr<Scene> read_scene(const CheckpointReader& checkpoint, const deck
 }
 
 void read_recorder(const CheckpointReader& checkpoint, FlowRecorder& recorder) {
-    recorder.restore({.last_row = checkpoint.read<double>("recorder/last_row"), .row_mark = read_mark(checkpoint, "recorder/row")});
+    recorder.restore(
+        {.last_row = checkpoint.read<double>("recorder/last_row"), .row_mark = read_mark(checkpoint, "recorder/row")});
 }
 
 void read_vessel_recorder(const CheckpointReader& checkpoint, VesselRecorder& vessel) {
@@ -142,4 +145,4 @@ void read_window(const CheckpointReader& checkpoint, FlowWindow& window) {
     window.restore(state);
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -21,7 +21,8 @@ nlohmann::ordered_json origin_summary(const CheckpointOrigin& origin);
 
 /// Throws FileError; DivergedError if a value is not finite: the last good checkpoint stays.
 void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin, const Scene& scene,
-                           const FlowRecorder& recorder, const FlowWindow& window, const VesselRecorder* vessel = nullptr);
+                           const FlowRecorder& recorder, const FlowWindow& window,
+                           const VesselRecorder* vessel = nullptr);
 
 /// A scene of the case, ready for its next step, as the checkpoint left it. Throws FileError, CheckpointError.
 std::unique_ptr<Scene> read_scene(const CheckpointReader& checkpoint, const deck::Case& config);
@@ -30,4 +31,4 @@ void read_recorder(const CheckpointReader& checkpoint, FlowRecorder& recorder);
 void read_window(const CheckpointReader& checkpoint, FlowWindow& window);
 void read_vessel_recorder(const CheckpointReader& checkpoint, VesselRecorder& vessel);
 
-}  // namespace patency
+}   // namespace patency

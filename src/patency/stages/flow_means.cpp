@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-}  // namespace
+}   // namespace
 
 void expect_finite(const Json& json, const std::string& path) {
     if (json.is_structured())
@@ -36,7 +36,10 @@ FlowMark mark_flow(const Scene& scene) {
     const FluidParticles& fluid = scene.fluid;
     const double stiffness = scene.material.density * scene.material.sound_speed * scene.material.sound_speed;
     if (scene.config.scheme() != deck::SchemeName::cells)   // which compress nothing
-        mark.compressed = sum_of(fluid.size(), [&](std::size_t i) { return fluid.opening[i] == 0 ? fluid.volume[i] * fluid.pressure[i] : 0.0; }) / stiffness;
+        mark.compressed =
+            sum_of(fluid.size(),
+                   [&](std::size_t i) { return fluid.opening[i] == 0 ? fluid.volume[i] * fluid.pressure[i] : 0.0; }) /
+            stiffness;
     mark.inside = std::int64_t(sum_of(fluid.size(), [&](std::size_t i) { return fluid.opening[i] == 0 ? 1.0 : 0.0; }));
     return mark;
 }
@@ -44,7 +47,8 @@ FlowMark mark_flow(const Scene& scene) {
 double window_start(const deck::Case& config) {
     const double end = config.numerics.duration;
     if (config.output.average_from) return *config.output.average_from;
-    if (config.about.mode == deck::Mode::periodic && config.about.period) return std::max(0.0, end - *config.about.period);
+    if (config.about.mode == deck::Mode::periodic && config.about.period)
+        return std::max(0.0, end - *config.about.period);
     return 0.9 * end;
 }
 
@@ -67,7 +71,9 @@ double mass_imbalance_percent(const FlowMark& from, const FlowMark& to) {
 BulkValues bulk_values(const Scene& scene) {
     const FluidParticles& fluid = scene.fluid;
     const auto inside = [&](std::size_t i) { return fluid.opening[i] == 0; };
-    const auto sum = [&](auto value) { return sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? fluid.volume[i] * value(i) : 0.0; }); };
+    const auto sum = [&](auto value) {
+        return sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? fluid.volume[i] * value(i) : 0.0; });
+    };
     const auto speed = [&](std::size_t i) { return norm(fluid.velocity[i]); };
     const double volume = sum([](std::size_t) { return 1.0; });
     return {.largest_speed = largest_of(fluid.size(), [&](std::size_t i) { return inside(i) ? speed(i) : 0.0; }),
@@ -100,8 +106,9 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     }
     summary["openings"] = openings;
     summary["gauge_pressure_ratio"] = nullptr;   // of a vessel with a lesion only (vessel_results.h)
-    summary["ffr"] = {{"lesion", nullptr},
-                      {"reason", scene.config.aorta.pressure ? "a shape has no lesions" : "the deck gives no aortic pressure"}};
+    summary["ffr"] = {
+        {"lesion", nullptr},
+        {"reason", scene.config.aorta.pressure ? "a shape has no lesions" : "the deck gives no aortic pressure"}};
     summary["mass_imbalance_percent"] = mass_imbalance_percent(from, to);
     const bool is_on_cells = scene.config.scheme() == deck::SchemeName::cells;
     double finest = scene.numerics.spacing;
@@ -130,4 +137,4 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     return summary;
 }
 
-}  // namespace patency
+}   // namespace patency

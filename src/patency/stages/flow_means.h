@@ -12,11 +12,11 @@ namespace patency {
 
 /// What the integrals of a scene stand at, at one moment.
 struct FlowMark {
-    double time = 0;                      ///< [s]
-    std::vector<double> volume_out;       ///< per opening [m^3]
-    std::vector<double> pressure_time;    ///< per opening [Pa s]
-    double compressed = 0;                ///< volume at rest that the blood inside holds beyond its own, sum V p / (rho c^2) [m^3]
-    std::int64_t inside = 0;              ///< particles between the openings' planes
+    double time = 0;                     ///< [s]
+    std::vector<double> volume_out;      ///< per opening [m^3]
+    std::vector<double> pressure_time;   ///< per opening [Pa s]
+    double compressed = 0;     ///< volume at rest that the blood inside holds beyond its own, sum V p / (rho c^2) [m^3]
+    std::int64_t inside = 0;   ///< particles between the openings' planes
 };
 FlowMark mark_flow(const Scene& scene);
 
@@ -48,4 +48,4 @@ struct BulkValues {
 };
 BulkValues bulk_values(const Scene& scene);
 
-}  // namespace patency
+}   // namespace patency

@@ -36,7 +36,7 @@ std::vector<Vec3> places_of(const Scene& scene, const deck::LineProfile& profile
     return places;
 }
 
-}  // namespace
+}   // namespace
 
 FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
     const deck::Case& config = scene.config;
@@ -53,8 +53,8 @@ FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
         RecordedTable probes{"probes", {"time_s"}};
         for (const deck::Probe& probe : config.output.probes) {
             if (!is_in_blood(scene, probe.point))
-                throw DeckError(fmt::format("output.probes: {} lies outside the blood, {:.3g} mm from the wall", probe.name,
-                                            1e3 * std::abs(scene.lumen.distance.value(probe.point))));
+                throw DeckError(fmt::format("output.probes: {} lies outside the blood, {:.3g} mm from the wall",
+                                            probe.name, 1e3 * std::abs(scene.lumen.distance.value(probe.point))));
             for (const char* what : {"velocity_x_m_per_s", "velocity_y_m_per_s", "velocity_z_m_per_s", "pressure_pa"})
                 probes.columns.push_back(probe.name + "_" + what);
         }
@@ -66,8 +66,8 @@ FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
             throw DeckError(fmt::format("output.profiles: no point of {} lies in the blood", profile.name));
         exact_times_.insert(exact_times_.end(), profile.times.begin(), profile.times.end());
         tables_.push_back({"profile_" + profile.name,
-                           {"time_s", "distance_m", "x_m", "y_m", "z_m", "velocity_x_m_per_s", "velocity_y_m_per_s", "velocity_z_m_per_s",
-                            "pressure_pa"}});
+                           {"time_s", "distance_m", "x_m", "y_m", "z_m", "velocity_x_m_per_s", "velocity_y_m_per_s",
+                            "velocity_z_m_per_s", "pressure_pa"}});
     }
     std::sort(exact_times_.begin(), exact_times_.end());
 }
@@ -83,7 +83,8 @@ void FlowRecorder::observe(const Scene& scene, bool is_end) {
     const auto& profiles = scene.config.output.profiles;
     for (std::size_t k = 0; k < profiles.size(); ++k) {
         const auto& times = profiles[k].times;
-        if (times.empty() ? is_end : std::find(times.begin(), times.end(), scene.time) != times.end()) write_profile(scene, k);
+        if (times.empty() ? is_end : std::find(times.begin(), times.end(), scene.time) != times.end())
+            write_profile(scene, k);
     }
 }
 
@@ -104,7 +105,8 @@ void FlowRecorder::write_probes(const Scene& scene) {
     std::vector<double> row{scene.time};
     for (const deck::Probe& probe : scene.config.output.probes) {   // one by one: they may lie far apart
         const FlowSample sample = sample_scene(scene, {&probe.point, 1}).front();
-        for (const double value : {sample.velocity.x, sample.velocity.y, sample.velocity.z, sample.pressure + scene.level()})
+        for (const double value :
+             {sample.velocity.x, sample.velocity.y, sample.velocity.z, sample.pressure + scene.level()})
             row.push_back(value);
     }
     write_row(scene.ends.empty() ? 0 : 1, row);
@@ -117,7 +119,8 @@ void FlowRecorder::write_profile(const Scene& scene, std::size_t k) {
     const std::vector<FlowSample> samples = sample_scene(scene, places);
     for (std::size_t p = 0; p < places.size(); ++p) {
         const Vec3 &x = places[p], &v = samples[p].velocity;
-        const double row[] = {scene.time, norm(x - profile.from), x.x, x.y, x.z, v.x, v.y, v.z, samples[p].pressure + scene.level()};
+        const double row[] = {
+            scene.time, norm(x - profile.from), x.x, x.y, x.z, v.x, v.y, v.z, samples[p].pressure + scene.level()};
         write_row(first_profile_ + k, row);
     }
 }
@@ -127,4 +130,4 @@ void FlowRecorder::restore(const State& state) {
     row_mark_ = state.row_mark;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -14,7 +14,7 @@ namespace patency {
 
 /// A table of numbers that grows: the columns carry their units.
 struct RecordedTable {
-    std::string name;                    ///< waveforms, probes, profile_NAME
+    std::string name;   ///< waveforms, probes, profile_NAME
     std::vector<std::string> columns;
 };
 
@@ -52,4 +52,4 @@ private:
     FlowMark row_mark_;
 };
 
-}  // namespace patency
+}   // namespace patency

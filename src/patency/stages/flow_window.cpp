@@ -13,7 +13,7 @@ namespace {
 constexpr double windows_per_passage = 8;
 constexpr int averaged_windows = 2;
 constexpr int parts_of_window = FlowWindow::parts_of_block * FlowWindow::blocks / averaged_windows;
-constexpr double most_uncertain = 4;       // in tolerances
+constexpr double most_uncertain = 4;   // in tolerances
 // A flow that swings stands still where it turns: two comparisons that share no part must be quiet, unless an end lets sound out.
 constexpr int quiet_in_a_row = 2, quiet_while_sliding = 3;
 
@@ -23,11 +23,14 @@ int parts_of(const Scene& scene) { return is_steady(scene) ? parts_of_window : 1
 
 /// Whether the means are those of the windows that agreed. A pulse has its form and a jet on cells its swings: what they are averaged
 /// over begins when they have settled.
-bool does_slide(const Scene& scene) { return scene.config.numerics.convergence && is_steady(scene) && scene.config.scheme() != deck::SchemeName::cells; }
+bool does_slide(const Scene& scene) {
+    return scene.config.numerics.convergence && is_steady(scene) && scene.config.scheme() != deck::SchemeName::cells;
+}
 
 int quiet_needed(const Scene& scene) {
     if (!does_slide(scene)) return quiet_in_a_row;
-    const bool is_sound_let_out = std::any_of(scene.ends.begin(), scene.ends.end(), [](const OpenEnd& end) { return end.absorber.is_there(); });
+    const bool is_sound_let_out =
+        std::any_of(scene.ends.begin(), scene.ends.end(), [](const OpenEnd& end) { return end.absorber.is_there(); });
     return is_sound_let_out ? 1 : quiet_while_sliding;
 }
 
@@ -83,7 +86,8 @@ WindowChange change_of_windows(const std::vector<FlowMark>& marks, int parts, do
         add(inflow, [&](std::size_t p) { return part(p, k).flow; });
         add(high - low, [&](std::size_t p) { return part(p, k).pressure - part(p, 0).pressure; });
     }
-    add(std::abs(mean_between(marks[count], marks[2 * count], 0, 1).pressure - datum), [&](std::size_t p) { return part(p, 0).pressure; });
+    add(std::abs(mean_between(marks[count], marks[2 * count], 0, 1).pressure - datum),
+        [&](std::size_t p) { return part(p, 0).pressure; });
     return result;
 }
 
@@ -118,14 +122,16 @@ bool FlowWindow::observe(const Scene& scene) {
     if (is_part) state_.marks.push_back(mark_flow(scene));
     const bool is_full = state_.marks.size() == 2 * parts + 1;
     if (is_part && is_full) compare_windows(scene);
-    if (!state_.begin && scene.time >= start_) state_.begin = slides_ ? state_.marks.front() : mark_flow(scene);   // the last chance
+    if (!state_.begin && scene.time >= start_)
+        state_.begin = slides_ ? state_.marks.front() : mark_flow(scene);   // the last chance
     if (state_.begin) return false;
     if (is_full) state_.marks.erase(state_.marks.begin(), state_.marks.begin() + std::ptrdiff_t(step));
     return is_part && slides_ && (state_.marks.size() - 1) % step == 0;
 }
 
 void FlowWindow::compare_windows(const Scene& scene) {
-    const WindowChange change = change_of_windows(state_.marks, parts_of(scene), scene.config.numerics.convergence->tolerance_percent, scene.datum);
+    const WindowChange change = change_of_windows(state_.marks, parts_of(scene),
+                                                  scene.config.numerics.convergence->tolerance_percent, scene.datum);
     state_.change_percent = change.change;
     state_.quiet_windows = change.excess <= 0 ? state_.quiet_windows + 1 : 0;
     state_.is_settled = state_.quiet_windows >= quiet_needed(scene);

@@ -24,7 +24,9 @@ public:
     /// oldest of `blocks` is none of theirs any more.
     bool observe(const Scene& scene);
     bool slides() const { return slides_; }
-    double block_begin() const { return state_.marks[state_.marks.size() - 1 - (state_.marks.size() - 1) % parts_of_block].time; }
+    double block_begin() const {
+        return state_.marks[state_.marks.size() - 1 - (state_.marks.size() - 1) % parts_of_block].time;
+    }
     static constexpr std::size_t parts_of_block = 2;
     static constexpr std::size_t blocks = 4;   ///< half windows that the means are made of
 
@@ -45,7 +47,7 @@ public:
         std::optional<FlowMark> begin;
         std::vector<FlowMark> marks;   ///< ends of the parts of the last two windows
         double end = 0, change_percent = 100;
-        int quiet_windows = 0;         ///< in a row, in which nothing moved
+        int quiet_windows = 0;   ///< in a row, in which nothing moved
         bool is_settled = false;
     };
     const State& state() const { return state_; }

@@ -21,7 +21,7 @@ namespace patency {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double fewest_across = 4;       // of an opening, or build_frame refuses it
+constexpr double fewest_across = 4;   // of an opening, or build_frame refuses it
 
 // Common carotid: 415 mL/min (174 people, Radiology 1997; 205: 353) through 6.3 mm (Krejza et al. 2006). Aorta: 0.9 L/min below
 // the renal arteries and 2.3 L/min above the coeliac one (Cheng et al. 2003), through about 17 and 23 mm.
@@ -157,8 +157,9 @@ std::optional<StentProposal> propose_stent(const VesselAlong& along) {
     const Lesion& lesion = along.assessment.lesions.front();
     const double healthy = lesion.interpolated.diameter;
     const auto misfit = [&](const StentDesign& d) { return std::abs(d.pattern.nominal_diameter - healthy); };
-    const auto best = std::min_element(stent_library().begin(), stent_library().end(),
-                                       [&](const StentDesign& a, const StentDesign& b) { return misfit(a) < misfit(b); });
+    const auto best =
+        std::min_element(stent_library().begin(), stent_library().end(),
+                         [&](const StentDesign& a, const StentDesign& b) { return misfit(a) < misfit(b); });
     constexpr double largest_misfit = 0.2, landing = 2e-3;   // landing: m beyond the lesion at each end
     if (misfit(*best) > largest_misfit * healthy) return {};
     const double middle = 0.5 * (lesion.start_arc + lesion.end_arc);
@@ -207,8 +208,10 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     }
     plan.with_stent = settings.with_stent;
     if (plan.with_stent && !plan.stent)
-        throw GeometryError(along.assessment.lesions.empty() ? "A stent is asked for, and the vessel has no lesion to put it into."
-                                                             : "A stent is asked for, and none of the library (patency stent list) fits the worst lesion's diameter.");
+        throw GeometryError(along.assessment.lesions.empty()
+                                ? "A stent is asked for, and the vessel has no lesion to put it into."
+                                : "A stent is asked for, and none of the library (patency stent list) fits the worst "
+                                  "lesion's diameter.");
     plan.config.numerics.scheme = deck::SchemeName::cells;
     plan.config.numerics.across = cells_across;
     plan.cells = plan_cells(plan.config, settings.budget.threads, &vessel);

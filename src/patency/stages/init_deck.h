@@ -60,8 +60,9 @@ struct InitPlan {
     double bed_flow;     ///< what the bed takes without a loss in the vessel [m^3/s]
     double settling;     ///< until a flow from rest is steady [s]
     Budget budget;
-    CellPlan cells;          ///< what the deck costs
-    double moving_spacing;   ///< instead, of moving particles: what the budget pays for, but no coarser than the openings bear [m]
+    CellPlan cells;   ///< what the deck costs
+    double
+        moving_spacing;   ///< instead, of moving particles: what the budget pays for, but no coarser than the openings bear [m]
     double budget_spacing;   ///< of moving particles, that the budget alone allows [m]
     FlowPlan price;          ///< of moving particles
     double fine_spacing;     ///< at which nothing is under-resolved [m]

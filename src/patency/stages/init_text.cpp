@@ -38,7 +38,8 @@ std::string price(const FlowPlan& p, double spacing) {
         "spacing {}: {:.2g} particles of blood and {:.2g} of wall, {:.2g} acoustic steps of {:.2g} s, {:.0f} MB, about "
         "{} on {} thread{} if the flow settles soon, {} at the longest",
         format_quantity(spacing, "mm"), p.fluid_particles, p.wall_particles, p.acoustic_steps, p.acoustic_step,
-        p.memory / 1e6, readable_time(p.seconds), p.threads, p.threads == 1 ? "" : "s", readable_time(p.longest_seconds));
+        p.memory / 1e6, readable_time(p.seconds), p.threads, p.threads == 1 ? "" : "s",
+        readable_time(p.longest_seconds));
 }
 
 /// How well something of that diameter is seen by moving particles.
@@ -110,9 +111,11 @@ void describe_lesions(Lines& out, const Vessel& vessel, const InitPlan& plan) {
 void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     const double spacing = plan.moving_spacing;
     const CellPlan& cells = plan.cells;
-    out.add("Price: about {:.2g} cells, {:.2g} to {:.2g} mm apart, {:.0f} in each local diameter; {:.0f} MB, about {} on {} thread{}", cells.cells,
-            mm(cells.finest), mm(cells.coarsest), cells_across, cells.memory / 1e6, readable_time(cells.seconds), cells.threads,
-            cells.threads == 1 ? "" : "s");
+    out.add(
+        "Price: about {:.2g} cells, {:.2g} to {:.2g} mm apart, {:.0f} in each local diameter; {:.0f} MB, about {} on "
+        "{} thread{}",
+        cells.cells, mm(cells.finest), mm(cells.coarsest), cells_across, cells.memory / 1e6,
+        readable_time(cells.seconds), cells.threads, cells.threads == 1 ? "" : "s");
     out.add("Moving particles instead, for a budget of {}:", readable_time(plan.budget.seconds));
     out.add("  {}", price(plan.price, spacing));
     if (!plan.is_within_budget())
@@ -120,9 +123,11 @@ void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
             "  That is more than the budget: a coarser spacing would leave fewer than 4 particles across an opening.");
     if (plan.fine_spacing < spacing) out.add("  nothing under-resolved: {}", price(plan.fine_price, plan.fine_spacing));
     out.add(
-        "  Steady after {} s at the latest: along the slowest way, in each branch, the sooner of viscosity's slowest mode at 1 % and",
+        "  Steady after {} s at the latest: along the slowest way, in each branch, the sooner of viscosity's slowest "
+        "mode at 1 % and",
         format_number(plan.config.numerics.duration));
-    out.add("  twice the time that blood needs to pass. From the estimate it gets there sooner, and the run ends then.");
+    out.add(
+        "  twice the time that blood needs to pass. From the estimate it gets there sooner, and the run ends then.");
     for (const Cut& cut : plan.cuts)
         out.add(
             "  The budget's {} would need {} cut back from {:.1f} to {:.1f} mm along its line, where it is 4 particles "
@@ -206,10 +211,13 @@ std::string bed_text(const InitPlan& plan) {
 
 /// With a stent the wall of a deployment: what narrows the vessel is plaque, which gives way.
 std::string wall_text(const InitPlan& plan) {
-    if (plan.config.wall.plaque == deck::Plaque::none) return commented("wall: {motion: rigid}", "the wall stands still");
-    return commented("wall:", "of the blood rigid; deformable where a stent is opened by contact") + commented("  motion: rigid", "the wall stands still") +
+    if (plan.config.wall.plaque == deck::Plaque::none)
+        return commented("wall: {motion: rigid}", "the wall stands still");
+    return commented("wall:", "of the blood rigid; deformable where a stent is opened by contact") +
+           commented("  motion: rigid", "the wall stands still") +
            commented("  plaque: fills", "of a stent by contact: between the lumen and the healthy one") +
-           commented("  layers: {plaque: {name: " + *plan.config.wall.layers.plaque->name + "}}", "gives way where it is stretched and stays; calcified_plaque: stiff");
+           commented("  layers: {plaque: {name: " + *plan.config.wall.layers.plaque->name + "}}",
+                     "gives way where it is stretched and stays; calcified_plaque: stiff");
 }
 
 std::string stent_text(const Vessel& vessel, const InitPlan& plan) {
@@ -227,16 +235,20 @@ std::string stent_text(const Vessel& vessel, const InitPlan& plan) {
     const std::string in = plan.with_stent ? "" : "# ";
     text += in + "stent:\n";
     text += commented(in + "  design: " + s.design->name, "of the library: patency stent list");
-    text += commented(fmt::format("{}  length: \"{:.1f} mm\"", in, mm(s.pattern.length)), fmt::format("{} rings; with 2 mm of healthy vessel at both ends", s.pattern.rings));
+    text += commented(fmt::format("{}  length: \"{:.1f} mm\"", in, mm(s.pattern.length)),
+                      fmt::format("{} rings; with 2 mm of healthy vessel at both ends", s.pattern.rings));
     text += commented(fmt::format("{}  placement: {{branch: {}, arc_length: \"{:.2f} mm\"}}", in,
                                   shown_name(along.lines.branches[lesion.branch].name), mm(s.arc)),
                       "its middle on the lesion's");
     text += in + "deployment:\n";
-    text += commented(in + "  mode: geometric", "a quick change of shape; balloon: by contact, with plastic struts, in hours");
+    text += commented(in + "  mode: geometric",
+                      "a quick change of shape; balloon: by contact, with plastic struts, in hours");
     const double crimped = s.design->pattern.crimped_diameter;
     if (lesion.minimum_diameter < crimped)
-        text += commented(fmt::format("#   predilation: \"{:.1f} mm\"", mm(predilation_for(crimped))),
-                          fmt::format("by contact, a balloon before: the crimped stent, {:.2f} mm, does not pass {:.2f} mm", mm(crimped), mm(lesion.minimum_diameter)));
+        text +=
+            commented(fmt::format("#   predilation: \"{:.1f} mm\"", mm(predilation_for(crimped))),
+                      fmt::format("by contact, a balloon before: the crimped stent, {:.2f} mm, does not pass {:.2f} mm",
+                                  mm(crimped), mm(lesion.minimum_diameter)));
     return text;
 }
 
@@ -273,14 +285,15 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
     text += "aorta:\n" + commented("  pressure: " + quantity(*c.aorta.pressure, "mmHg"),
                                    "mean, of 120 over 80; the reference of FFR");
     text += bed_text(plan) + stent_text(vessel, plan);
-    text += "numerics:\n" +
-            commented("  scheme: cells", "a steady flow on the cells of still particles; sph: moving ones, hours") +
-            commented(fmt::format("  across: {}", format_number(*c.numerics.across)), "cells in each local diameter") +
-            commented("  # spacing: " + quantity(plan.moving_spacing, "mm"),
-                      fmt::format("of sph, instead of across: {:.1f} in the narrowest place", plan.price.across_narrowest));
-    text += commented("  duration: " + quantity(c.numerics.duration, "s"),
-                      "of sph, simulated, at the longest");
-    text += commented(fmt::format("  convergence: {{tolerance_percent: {}}}", format_number(c.numerics.convergence->tolerance_percent)),
+    text +=
+        "numerics:\n" +
+        commented("  scheme: cells", "a steady flow on the cells of still particles; sph: moving ones, hours") +
+        commented(fmt::format("  across: {}", format_number(*c.numerics.across)), "cells in each local diameter") +
+        commented("  # spacing: " + quantity(plan.moving_spacing, "mm"),
+                  fmt::format("of sph, instead of across: {:.1f} in the narrowest place", plan.price.across_narrowest));
+    text += commented("  duration: " + quantity(c.numerics.duration, "s"), "of sph, simulated, at the longest");
+    text += commented(fmt::format("  convergence: {{tolerance_percent: {}}}",
+                                  format_number(c.numerics.convergence->tolerance_percent)),
                       "of sph: ends when flows and pressures at the openings have stopped moving");
     text += "output:\n" + commented("  fields: [velocity, pressure]", "of the particles in the frames");
     return text + commented("  # interval: " + quantity(c.numerics.duration / 20, "s"),

@@ -27,7 +27,9 @@ constexpr double jet_widening = 0.004;
 
 StraightAxis axis_for(const Scene& scene, const char* what) {
     auto axis = find_straight_axis(scene.config.geometry);
-    if (!axis) throw DeckError(fmt::format("{} needs a shape with one straight axis: channel, tube, cone or nozzle; start from rest", what));
+    if (!axis)
+        throw DeckError(fmt::format(
+            "{} needs a shape with one straight axis: channel, tube, cone or nozzle; start from rest", what));
     return *axis;
 }
 
@@ -42,7 +44,8 @@ double stream_radius(const StraightAxis& axis, double axial) {
 /// Velocity of the flow that a waveform drives: its profile at time zero.
 VectorField womersley_field(const Scene& scene) {
     for (std::size_t k = 0; k < scene.ends.size(); ++k)
-        if (scene.ends[k].velocity) return [velocity = scene.ends[k].velocity](const Vec3& x) { return velocity(x, 0); };
+        if (scene.ends[k].velocity)
+            return [velocity = scene.ends[k].velocity](const Vec3& x) { return velocity(x, 0); };
     const StraightAxis axis = axis_for(scene, "initial.velocity: womersley");
     if (scene.laws.size() != 2) throw DeckError("initial.velocity: womersley needs a waveform at an opening");
     // Between two pressures: the flow of their difference, one period long.
@@ -54,12 +57,17 @@ VectorField womersley_field(const Scene& scene) {
     FourierSeries gradient{(inlet.mean - outlet.mean) / axis.length, {}, {}, pulse.period};
     gradient.cosines.resize(pulse.modes()), gradient.sines.resize(pulse.modes());
     for (std::size_t k = 1; k <= pulse.modes(); ++k) {
-        const auto of = [&](const FourierSeries& s) { return k <= s.modes() ? s.amplitude(k) : std::complex<double>{}; };
+        const auto of = [&](const FourierSeries& s) {
+            return k <= s.modes() ? s.amplitude(k) : std::complex<double>{};
+        };
         gradient.set_amplitude(k, (of(inlet) - of(outlet)) / axis.length);
     }
     const double rho = scene.material.density, mu = scene.material.viscosity;
-    const WomersleyProfile profile(axis.section, radius, rho, mu, make_womersley_flow(axis.section, radius, rho, mu, gradient));
-    return [axis, radius, now = profile.at(0)](const Vec3& x) { return now(std::min(axis.radial(x) / radius, 1.0)) * axis.direction; };
+    const WomersleyProfile profile(axis.section, radius, rho, mu,
+                                   make_womersley_flow(axis.section, radius, rho, mu, gradient));
+    return [axis, radius, now = profile.at(0)](const Vec3& x) {
+        return now(std::min(axis.radial(x) / radius, 1.0)) * axis.direction;
+    };
 }
 
 /// A particle stands for the cell around it, whose mean of a curved profile is less than the value in its middle: in a parabola
@@ -108,7 +116,8 @@ VectorField velocity_field(const Scene& scene) {
         case deck::InitialVelocity::taylor_green: {
             const double k = 2 * std::numbers::pi / scene.config.geometry.shape->size.x;
             return [=](const Vec3& x) {   // THEORY.md (12.7)
-                return Vec3{-speed * std::cos(k * x.x) * std::sin(k * x.y), speed * std::sin(k * x.x) * std::cos(k * x.y), 0};
+                return Vec3{-speed * std::cos(k * x.x) * std::sin(k * x.y),
+                            speed * std::sin(k * x.x) * std::cos(k * x.y), 0};
             };
         }
         case deck::InitialVelocity::womersley: return womersley_field(scene);
@@ -132,7 +141,9 @@ PressureField taylor_green_pressure(const Scene& scene) {
     const double k = 2 * std::numbers::pi / scene.config.geometry.shape->size.x;
     const double p = 0.25 * scene.material.density * *scene.config.initial.speed * *scene.config.initial.speed;
     return {[=](const Vec3& x) { return -p * (std::cos(2 * k * x.x) + std::cos(2 * k * x.y)); },
-            [=](const Vec3& x) { return Vec3{2 * k * p * std::sin(2 * k * x.x), 2 * k * p * std::sin(2 * k * x.y), 0}; }};
+            [=](const Vec3& x) {
+                return Vec3{2 * k * p * std::sin(2 * k * x.x), 2 * k * p * std::sin(2 * k * x.y), 0};
+            }};
 }
 
 /// Linear along the axis between the openings' pressures; where the inlet prescribes a flow, with Poiseuille's gradient
@@ -150,10 +161,14 @@ PressureField linear_pressure(const Scene& scene) {
     double slope = 0;
     const auto velocity = scene.config.initial_velocity();
     if (velocity != deck::InitialVelocity::rest && velocity != deck::InitialVelocity::plug)
-        slope = -scene.config.initial.speed.value_or(0) * scene.material.viscosity * (axis.section == Section::planar ? 3 : 8) / (a * a);
-    if (!std::isnan(first) && !std::isnan(last)) slope = (last - first) / axis.length;
-    else if (std::isnan(first)) first = last - slope * axis.length;
-    return {[=](const Vec3& x) { return first + slope * axis.axial(x); }, [=](const Vec3&) { return slope * axis.direction; }};
+        slope = -scene.config.initial.speed.value_or(0) * scene.material.viscosity *
+                (axis.section == Section::planar ? 3 : 8) / (a * a);
+    if (!std::isnan(first) && !std::isnan(last))
+        slope = (last - first) / axis.length;
+    else if (std::isnan(first))
+        first = last - slope * axis.length;
+    return {[=](const Vec3& x) { return first + slope * axis.axial(x); },
+            [=](const Vec3&) { return slope * axis.direction; }};
 }
 
 PressureField pressure_field(const Scene& scene) {
@@ -161,13 +176,14 @@ PressureField pressure_field(const Scene& scene) {
     if (scene.config.initial_pressure() == deck::InitialPressure::linear) return linear_pressure(scene);
     if (scene.config.initial_pressure() == deck::InitialPressure::estimate) {
         const auto field = estimated_field(scene);
-        return {[=](const Vec3& x) { return field->at(x, 0).pressure; }, [=](const Vec3& x) { return field->at(x, 0).pressure_gradient; }};
+        return {[=](const Vec3& x) { return field->at(x, 0).pressure; },
+                [=](const Vec3& x) { return field->at(x, 0).pressure_gradient; }};
     }
     const double level = scene.reference_pressure;   // zero above the level: no shock where nothing drives
     return {[=](const Vec3&) { return level; }, [](const Vec3&) { return Vec3{}; }};
 }
 
-}  // namespace
+}   // namespace
 
 namespace {
 
@@ -200,21 +216,25 @@ void scale_to_flows(Scene& scene, const std::vector<double>& out) {
     FluidParticles& fluid = scene.fluid;
     const std::vector<double> flows = branch_flows(scene, out);
     const EstimatedField field(*scene.vessel, *scene.estimate);
-    const std::vector<double> carried = field.carried({&fluid.position[0], fluid.size()}, {&fluid.velocity[0], fluid.size()}, fluid.volume[0]);
+    const std::vector<double> carried =
+        field.carried({&fluid.position[0], fluid.size()}, {&fluid.velocity[0], fluid.size()}, fluid.volume[0]);
     constexpr double most = 1.25;   // where more lacks something else is wrong
     std::vector<double> share;
-    for (std::size_t b = 0; b < flows.size(); ++b) share.push_back(flows[b] * carried[b] > 0 ? std::clamp(flows[b] / carried[b], 1 / most, most) : 1);
+    for (std::size_t b = 0; b < flows.size(); ++b)
+        share.push_back(flows[b] * carried[b] > 0 ? std::clamp(flows[b] / carried[b], 1 / most, most) : 1);
     for (std::size_t i = 0; i < fluid.size(); ++i) fluid.velocity[i] *= share[field.branch_at(fluid.position[i])];
 }
 
 /// The flow on cells, where the case starts from it; else none. Outlets' capacitors begin as it leaves them.
 std::unique_ptr<const CellStart> solve_on_cells(Scene& scene, const SolveOnCells& solve) {
-    const bool is_wanted = scene.config.initial_velocity() == deck::InitialVelocity::cells || scene.config.initial_pressure() == deck::InitialPressure::cells;
+    const bool is_wanted = scene.config.initial_velocity() == deck::InitialVelocity::cells ||
+                           scene.config.initial_pressure() == deck::InitialPressure::cells;
     if (!is_wanted) return nullptr;
     try {
         auto start = solve(scene);
         for (std::size_t k = 0; k < scene.ends.size(); ++k)
-            if (EndLaw& law = scene.laws[k]; law.outlet && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
+            if (EndLaw& law = scene.laws[k];
+                law.outlet && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
                 law.state = law.level_state = make_steady_state(*law.outlet, start->ends()[k].flow);
         scene.start_remark = fmt::format("starts from the flow on {} cells", start->cells());
         return start;
@@ -239,7 +259,7 @@ void start_ends(Scene& scene, const std::vector<double>& pressures, const std::v
     }
 }
 
-}  // namespace
+}   // namespace
 
 void compute_initial_state(Scene& scene, const SolveOnCells& solve) {
     FluidParticles& fluid = scene.fluid;
@@ -277,4 +297,4 @@ void compute_initial_state(Scene& scene, const SolveOnCells& solve) {
     for (std::size_t i = 0; i < fluid.size(); ++i) fluid.volume[i] *= 1 + fluid.pressure[i] / stiffness;
 }
 
-}  // namespace patency
+}   // namespace patency

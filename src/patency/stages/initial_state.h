@@ -15,6 +15,8 @@ using SolveOnCells = std::function<std::unique_ptr<const CellStart>(const Scene&
 /// Overwrites velocity, pressure (above scene.reference_pressure), pressure gradient, pressure rate and viscosity; what the ends hear
 /// of sound departs from the pressures there. A flow on cells that the deck did not ask for and that cannot be had is replaced by the
 /// estimate, with a remark. Throws DeckError where the shape knows no such field, and what the flow on cells throws that was asked for.
-void compute_initial_state(Scene& scene, const SolveOnCells& solve = [](const Scene& scene) { return std::make_unique<const CellStart>(scene); });
+void compute_initial_state(
+    Scene& scene,
+    const SolveOnCells& solve = [](const Scene& scene) { return std::make_unique<const CellStart>(scene); });
 
-}  // namespace patency
+}   // namespace patency

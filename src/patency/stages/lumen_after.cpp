@@ -17,15 +17,19 @@ namespace {
 /// Of the vessel's openings the one that is where this one was.
 std::size_t same_opening(const Opening& opening, const Vessel& vessel) {
     const auto away = [&](const SurfaceOpening& o) { return norm(o.opening.centre - opening.centre); };
-    const auto found = std::min_element(vessel.openings.begin(), vessel.openings.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); });
+    const auto found = std::min_element(vessel.openings.begin(), vessel.openings.end(),
+                                        [&](const auto& a, const auto& b) { return away(a) < away(b); });
     if (found == vessel.openings.end() || away(*found) > 0.1 * opening.radius)
-        throw GeometryError(fmt::format("The lumen after the deployment has lost its opening {}: a stent so near to it cannot be implanted.", opening.name));
+        throw GeometryError(fmt::format(
+            "The lumen after the deployment has lost its opening {}: a stent so near to it cannot be implanted.",
+            opening.name));
     return std::size_t(found - vessel.openings.begin());
 }
 
 }   // namespace
 
-deck::Case case_after(const deck::Case& config, const Vessel& before, Vessel& vessel, const std::filesystem::path& surface) {
+deck::Case case_after(const deck::Case& config, const Vessel& before, Vessel& vessel,
+                      const std::filesystem::path& surface) {
     deck::Case after = config;
     after.geometry = {};
     after.geometry.surface = surface;
@@ -50,7 +54,8 @@ std::map<std::string, Vec3> keep_branch_names(const BranchedLines& before, Branc
     std::set<std::size_t> named;
     for (const Branch& branch : before.branches) {
         const Vec3 middle = before.point(branch, (branch.first + branch.last) / 2).place;
-        if (const auto found = branch_around(after, middle); found && named.insert(*found).second) points[branch.name] = middle;
+        if (const auto found = branch_around(after, middle); found && named.insert(*found).second)
+            points[branch.name] = middle;
     }
     try {
         BranchedLines renamed = after;
@@ -62,16 +67,20 @@ std::map<std::string, Vec3> keep_branch_names(const BranchedLines& before, Branc
     return points;
 }
 
-Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const Surface& after, const OutputFolder& folder) {
+Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const Surface& after,
+                         const OutputFolder& folder) {
     const auto path = std::filesystem::absolute(folder.file("lumen_after.vtp"));
     write_surface(path, after);
     write_stl(folder.file("lumen_after.stl"), after, config.geometry.unit.value_or("mm"));
     Vessel vessel = check_vessel(after);
     if (const std::string refused = refusals(vessel.checked.findings); !refused.empty())
-        throw GeometryError(fmt::format("The lumen after the deployment cannot be used; patency inspect {} shows where.\n{}", path.string(), refused));
+        throw GeometryError(
+            fmt::format("The lumen after the deployment cannot be used; patency inspect {} shows where.\n{}",
+                        path.string(), refused));
     deck::Case config_after = case_after(config, before, vessel, path);
     follow_vessel(vessel);
-    if (before.along && vessel.along) config_after.geometry.branches = keep_branch_names(before.along->lines, vessel.along->lines);
+    if (before.along && vessel.along)
+        config_after.geometry.branches = keep_branch_names(before.along->lines, vessel.along->lines);
     deck::write_case(config_after, folder.file("case_after.yaml"));
     return vessel;
 }

@@ -22,7 +22,8 @@ std::vector<AxialRadius> outline_of(const deck::Shape& shape) {
         case deck::ShapeType::channel: return {{0, 0.5 * shape.gap}, {shape.length, 0.5 * shape.gap}};
         case deck::ShapeType::box: return {{0, 0.5 * shape.size.y}, {shape.size.x, 0.5 * shape.size.y}};
         case deck::ShapeType::tube: return {{0, 0.5 * shape.diameter}, {shape.length, 0.5 * shape.diameter}};
-        case deck::ShapeType::cone: return {{0, 0.5 * shape.diameters.at(0)}, {shape.length, 0.5 * shape.diameters.at(1)}};
+        case deck::ShapeType::cone:
+            return {{0, 0.5 * shape.diameters.at(0)}, {shape.length, 0.5 * shape.diameters.at(1)}};
         case deck::ShapeType::nozzle: {
             std::vector<AxialRadius> outline;
             for (const deck::NozzleSection& s : shape.sections) outline.push_back({s.z, 0.5 * s.diameter});
@@ -63,7 +64,8 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
         for (std::size_t k = 0; k < branches.size(); ++k) {
             if (k == self) continue;
             const deck::Branch& b = branches[k];
-            const SignedDistance other = union_of_round_cones({{b.from, b.to, 0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}});
+            const SignedDistance other =
+                union_of_round_cones({{b.from, b.to, 0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}});
             if (other.value(x) < 0) return false;
         }
         return true;
@@ -79,10 +81,14 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
     BranchesShape result{.branches = {}, .extension = extension_for(config.numerics, widest)};
     for (std::size_t k = 0; k < branches.size(); ++k) {
         const deck::Branch& b = branches[k];
-        BranchShape branch{.points = {b.from, b.to}, .radii = {0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)}, .start = {}, .end = {}};
+        BranchShape branch{.points = {b.from, b.to},
+                           .radii = {0.5 * b.diameters.at(0), 0.5 * b.diameters.at(1)},
+                           .start = {},
+                           .end = {}};
         if (std::find(starts.begin(), starts.end(), k) != starts.end())
             branch.start = starts.size() == 1 ? "inlet" : "inlet_" + b.name;
-        if (std::find(ends.begin(), ends.end(), k) != ends.end()) branch.end = ends.size() == 1 ? "outlet" : "outlet_" + b.name;
+        if (std::find(ends.begin(), ends.end(), k) != ends.end())
+            branch.end = ends.size() == 1 ? "outlet" : "outlet_" + b.name;
         result.branches.push_back(branch);
     }
     return make_branches(result);
@@ -90,7 +96,8 @@ Lumen make_branches_of(const deck::Case& config, const deck::Shape& shape) {
 
 double narrowest_width(const deck::Shape& shape) {
     if (shape.type == deck::ShapeType::box)
-        return shape.planar ? std::min(shape.size.x, shape.size.y) : std::min({shape.size.x, shape.size.y, shape.size.z});
+        return shape.planar ? std::min(shape.size.x, shape.size.y)
+                            : std::min({shape.size.x, shape.size.y, shape.size.z});
     if (shape.type == deck::ShapeType::step) return shape.gap - shape.step_height;
     double width = Bounds::infinity;
     for (const AxialRadius& a : outline_of(shape)) width = std::min(width, 2 * a.radius);
@@ -105,12 +112,14 @@ Lumen make_network_of(const deck::Case& config) {
     const double narrowest = narrowest_diameter(network), dp = finest_spacing(config.numerics, narrowest);
     constexpr double least_across = 4;   // as for shapes (config/checks.cpp)
     if (narrowest < least_across * dp)
-        throw DeckError(fmt::format("numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
-                                    "a sensible answer",
-                                    1e3 * narrowest));
+        throw DeckError(fmt::format(
+            "numerics.spacing: leaves fewer than 4 particles across the narrowest place, {:.3g} mm; at least 12 give "
+            "a sensible answer",
+            1e3 * narrowest));
     // Cells see triangles, not voxels, and at 12 to 20 across finer ones do not change their answer (docs/VERIFICATION.md, cells_bifurcation).
     constexpr double finest_across_radius = 12;
-    const double resolution = config.numerics.follows_vessel() ? std::max(0.5 * dp, 0.5 * narrowest / finest_across_radius) : 0.5 * dp;
+    const double resolution =
+        config.numerics.follows_vessel() ? std::max(0.5 * dp, 0.5 * narrowest / finest_across_radius) : 0.5 * dp;
     Lumen lumen = make_network_lumen(network, extension_for(config.numerics, widest_diameter(network)), resolution);
     expect_vessel_size({.opening = lumen.openings[0], .perimeter = 0, .flatness = 0}, g.unit.value_or("mm"));
     return lumen;
@@ -121,10 +130,13 @@ Lumen make_unchecked(const deck::Case& config, const deck::Shape& shape) {
     const auto along_axis = [&] { return motion_along(shape.axis, shape.start); };
     switch (shape.type) {
         case deck::ShapeType::channel: return make_channel({.length = shape.length, .gap = shape.gap, .ends = ends});
-        case deck::ShapeType::step: return make_step({.length = shape.length, .gap = shape.gap, .height = shape.step_height, .at = shape.step_at});
+        case deck::ShapeType::step:
+            return make_step(
+                {.length = shape.length, .gap = shape.gap, .height = shape.step_height, .at = shape.step_at});
         case deck::ShapeType::box: return make_box_of(config, shape);
         case deck::ShapeType::tube:
-            return moved(make_tube({.length = shape.length, .radius = 0.5 * shape.diameter, .ends = ends}), along_axis());
+            return moved(make_tube({.length = shape.length, .radius = 0.5 * shape.diameter, .ends = ends}),
+                         along_axis());
         case deck::ShapeType::cone:
         case deck::ShapeType::nozzle: return moved(make_nozzle({outline_of(shape)}), along_axis());
         case deck::ShapeType::branches: return make_branches_of(config, shape);
@@ -142,8 +154,11 @@ Lumen make_lumen_of_surface(const deck::Case& config, const Vessel& vessel) {
     const double dp = finest_spacing(config.numerics, narrowest);
     // Half a spacing: the distance errs by less than a twentieth of it. Ten voxels hold the wall's points and those that may
     // become some; the continuations hold the buffer, the wall beyond it and its kernels.
-    Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings, {.voxel = 0.5 * dp, .outside = 5 * dp, .extension = extension_for(config.numerics, widest),
-                                                         .straight = geometry.extensions.diameters});
+    Lumen lumen = make_surface_lumen(vessel.checked, vessel.openings,
+                                     {.voxel = 0.5 * dp,
+                                      .outside = 5 * dp,
+                                      .extension = extension_for(config.numerics, widest),
+                                      .straight = geometry.extensions.diameters});
     std::vector<double> outlets;
     for (std::size_t k = 1; k < lumen.openings.size(); ++k) outlets.push_back(2 * lumen.openings[k].radius);
     lumen.narrowest = narrowest;
@@ -167,7 +182,7 @@ void expect_same_names(const deck::Case& config, const Lumen& lumen) {
                                         join(names, ", ", " and ")));
 }
 
-}  // namespace
+}   // namespace
 
 Network read_network_of(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
@@ -215,7 +230,8 @@ double StraightAxis::radius_at(double place) const {
 }
 
 bool is_branching(const deck::Geometry& geometry) {
-    return geometry.network || geometry.surface || (geometry.shape && geometry.shape->type == deck::ShapeType::branches);
+    return geometry.network || geometry.surface ||
+           (geometry.shape && geometry.shape->type == deck::ShapeType::branches);
 }
 
 std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry) {
@@ -224,7 +240,8 @@ std::optional<StraightAxis> find_straight_axis(const deck::Geometry& geometry) {
     const std::vector<AxialRadius> outline = outline_of(shape);
     if (outline.empty() || (shape.type == deck::ShapeType::box && !shape.planar)) return {};
     const double length = outline.back().axial - outline.front().axial;
-    if (shape.is_planar()) return StraightAxis{{0, outline.front().radius, 0}, {1, 0, 0}, length, Section::planar, outline};
+    if (shape.is_planar())
+        return StraightAxis{{0, outline.front().radius, 0}, {1, 0, 0}, length, Section::planar, outline};
     return StraightAxis{shape.start, normalized(shape.axis), length, Section::circular, outline};
 }
 
@@ -234,4 +251,4 @@ std::string_view plane_wall_name(const Vec3& n) {
     return n.z < 0 ? "z_low" : "z_high";
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -24,10 +24,10 @@ Network read_network_of(const deck::Case& config);
 
 /// A lumen around one straight axis: a channel, tube, cone, nozzle.
 struct StraightAxis {
-    Vec3 start, direction;            ///< first point [m]; unit, towards the outlet
-    double length;                    ///< [m]
+    Vec3 start, direction;   ///< first point [m]; unit, towards the outlet
+    double length;           ///< [m]
     Section section;
-    std::vector<AxialRadius> outline; ///< radius or half gap along the axis [m]
+    std::vector<AxialRadius> outline;   ///< radius or half gap along the axis [m]
 
     double axial(const Vec3& x) const { return dot(x - start, direction); }
     /// Distance from the axis (from the mid-plane) [m].
@@ -44,4 +44,4 @@ bool is_branching(const deck::Geometry& geometry);
 /// Name of the plane wall that has this normal out of the blood: x_low, x_high, y_low, ...
 std::string_view plane_wall_name(const Vec3& normal);
 
-}  // namespace patency
+}   // namespace patency

@@ -17,16 +17,25 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json blood_summary(const deck::Blood& blood) {
-    Json entry{{"part", "blood"}, {"what", deck::word_of(blood.law)}, {"source", "the deck"}, {"density_kg_per_m3", blood.density}};
+    Json entry{{"part", "blood"},
+               {"what", deck::word_of(blood.law)},
+               {"source", "the deck"},
+               {"density_kg_per_m3", blood.density}};
     const auto add = [&](std::initializer_list<std::pair<const char*, double>> numbers) {
         for (const auto& [key, value] : numbers) entry[key] = value;
     };
     switch (blood.law) {
         case deck::BloodLaw::newtonian: add({{"viscosity_pa_s", blood.viscosity}}); break;
         case deck::BloodLaw::carreau_yasuda:
-            add({{"viscosity_at_rest_pa_s", blood.mu_0}, {"viscosity_at_high_rates_pa_s", blood.mu_inf}, {"relaxation_time_s", blood.lambda}, {"exponent", blood.n}, {"yasuda_exponent", blood.a}});
+            add({{"viscosity_at_rest_pa_s", blood.mu_0},
+                 {"viscosity_at_high_rates_pa_s", blood.mu_inf},
+                 {"relaxation_time_s", blood.lambda},
+                 {"exponent", blood.n},
+                 {"yasuda_exponent", blood.a}});
             break;
-        case deck::BloodLaw::casson: add({{"yield_stress_mpa", 1e-6 * blood.yield_stress}, {"plastic_viscosity_pa_s", blood.plastic_viscosity}}); break;
+        case deck::BloodLaw::casson:
+            add({{"yield_stress_mpa", 1e-6 * blood.yield_stress}, {"plastic_viscosity_pa_s", blood.plastic_viscosity}});
+            break;
         case deck::BloodLaw::power_law: add({{"consistency", blood.consistency}, {"exponent", blood.n}}); break;
     }
     return entry;
@@ -36,7 +45,8 @@ Json blood_summary(const deck::Blood& blood) {
 Json solid_summary(const std::string& part, const deck::SolidMaterialChoice& choice, const std::string& path) {
     const SolidMaterial material = make_solid_material(choice, path);
     const ElasticModuli moduli = material.moduli();
-    Json entry{{"part", part}, {"what", choice.law ? std::string(deck::word_of(*choice.law)) : ""}, {"source", "the deck"}};
+    Json entry{
+        {"part", part}, {"what", choice.law ? std::string(deck::word_of(*choice.law)) : ""}, {"source", "the deck"}};
     for (const TableMaterial& known : material_table())
         if (choice.name && known.name == *choice.name) {
             deck::SolidMaterialChoice bare;
@@ -62,9 +72,13 @@ Json materials_summary(const deck::Case& config) {
     const deck::Wall& wall = config.wall;
     deck::SolidMaterialChoice usual;
     usual.name = wall.law;
-    if (wall.plaque == deck::Plaque::fills) materials.push_back(solid_summary("plaque", wall.layers.plaque.value_or(usual), "wall.layers.plaque"));
-    materials.push_back(solid_summary(wall.layers.adventitia_share > 0 ? "media" : "wall", wall.layers.media.value_or(usual), "wall.layers.media"));
-    if (wall.layers.adventitia_share > 0) materials.push_back(solid_summary("adventitia", wall.layers.adventitia.value_or(usual), "wall.layers.adventitia"));
+    if (wall.plaque == deck::Plaque::fills)
+        materials.push_back(solid_summary("plaque", wall.layers.plaque.value_or(usual), "wall.layers.plaque"));
+    materials.push_back(solid_summary(wall.layers.adventitia_share > 0 ? "media" : "wall",
+                                      wall.layers.media.value_or(usual), "wall.layers.media"));
+    if (wall.layers.adventitia_share > 0)
+        materials.push_back(
+            solid_summary("adventitia", wall.layers.adventitia.value_or(usual), "wall.layers.adventitia"));
     deck::SolidMaterialChoice alloy;
     if (!config.stent->material) alloy.name = alloy_of(*config.stent);
     materials.push_back(solid_summary("stent", config.stent->material.value_or(alloy), "stent.material"));

@@ -19,8 +19,9 @@ inline std::vector<std::uint32_t> worst_of(std::span<const double> badness, std:
     std::vector<std::uint32_t> worst(badness.size());
     std::iota(worst.begin(), worst.end(), 0u);
     const std::size_t count = std::min(most, worst.size());
-    std::partial_sort(worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end(),
-                      [&](std::uint32_t a, std::uint32_t b) { return value(a) != value(b) ? value(a) > value(b) : a < b; });
+    std::partial_sort(
+        worst.begin(), worst.begin() + std::ptrdiff_t(count), worst.end(),
+        [&](std::uint32_t a, std::uint32_t b) { return value(a) != value(b) ? value(a) > value(b) : a < b; });
     worst.resize(count);
     return worst;
 }

@@ -21,7 +21,7 @@ constexpr double steps_per_second = 1.6e6;
 constexpr double bytes_per_particle_in_space = 2500, bytes_per_particle_in_plane = 1500;
 constexpr double viscous_number = 0.125;   // as the scheme's: dt <= 0.125 h^2 / nu
 
-}  // namespace
+}   // namespace
 
 FlowPlan plan_flow(const Scene& scene, int threads) { return plan_flow(scene, threads, scene.numerics.spacing); }
 
@@ -40,7 +40,8 @@ FlowPlan plan_flow(const Scene& scene, int threads, double dp) {
     plan.speed = u;
     plan.reynolds = scene.material.density * u / developed * width / scene.material.viscosity;
     plan.sound_speed = c;
-    plan.advection_step = std::min(n.advection_cfl * h / u, viscous_number * h * h / scene.material.kinematic_viscosity());
+    plan.advection_step =
+        std::min(n.advection_cfl * h / u, viscous_number * h * h / scene.material.kinematic_viscosity());
     const double acoustic = n.acoustic_cfl * h / (c + u);
     const double inner = std::ceil(plan.advection_step / acoustic);
     plan.acoustic_step = plan.advection_step / inner;
@@ -49,7 +50,8 @@ FlowPlan plan_flow(const Scene& scene, int threads, double dp) {
     plan.fluid_particles = (scene.lumen.volume + area * beyond) / cell;
     plan.wall_particles = (scene.lumen.wall_area + rim * (beyond + 2 * h)) * thickness / cell;
     plan.across_narrowest = width / dp;
-    plan.memory = (plan.fluid_particles + plan.wall_particles) * (n.planar ? bytes_per_particle_in_plane : bytes_per_particle_in_space);
+    plan.memory = (plan.fluid_particles + plan.wall_particles) *
+                  (n.planar ? bytes_per_particle_in_plane : bytes_per_particle_in_space);
     plan.threads = threads;
     plan.seconds = plan.fluid_particles * plan.acoustic_steps / (steps_per_second * threads);
     plan.longest_seconds = plan.seconds * scene.config.numerics.duration / end;
@@ -59,9 +61,10 @@ FlowPlan plan_flow(const Scene& scene, int threads, double dp) {
 double round_spacing(double spacing) {
     constexpr int digits = 3, step = 5;
     const int exponent = int(std::floor(std::log10(1e3 * spacing))) - digits + 1;
-    const auto made = [&](long n) {   // as it is read from a deck: the nearest number to the decimal one in mm, then in m
-        return (exponent < 0 ? double(n) / std::pow(10.0, -exponent) : double(n) * std::pow(10.0, exponent)) / 1e3;
-    };
+    const auto made =
+        [&](long n) {   // as it is read from a deck: the nearest number to the decimal one in mm, then in m
+            return (exponent < 0 ? double(n) / std::pow(10.0, -exponent) : double(n) * std::pow(10.0, exponent)) / 1e3;
+        };
     long n = long(1e3 * spacing / std::pow(10.0, exponent)) / step * step + step;
     while (made(n) > spacing) n -= step;
     return made(n);
@@ -77,4 +80,4 @@ double finest_spacing(const Scene& scene, const Budget& budget, double coarsest)
     }
 }
 
-}  // namespace patency
+}   // namespace patency

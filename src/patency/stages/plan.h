@@ -7,17 +7,17 @@
 namespace patency {
 
 struct FlowPlan {
-    double reynolds;              ///< of the mean speed through the narrowest width
-    double speed;                 ///< the largest expected [m/s]
-    double sound_speed;           ///< [m/s]
-    double advection_step;        ///< [s]
-    double acoustic_step;         ///< [s]
-    double acoustic_steps;        ///< until the probable end
+    double reynolds;                          ///< of the mean speed through the narrowest width
+    double speed;                             ///< the largest expected [m/s]
+    double sound_speed;                       ///< [m/s]
+    double advection_step;                    ///< [s]
+    double acoustic_step;                     ///< [s]
+    double acoustic_steps;                    ///< until the probable end
     double fluid_particles, wall_particles;   ///< buffers and walls beyond the openings included
-    double across_narrowest;      ///< particles
-    double memory;                ///< bytes
-    double seconds;               ///< expected on `threads` threads, until then
-    double longest_seconds;       ///< over the whole duration
+    double across_narrowest;                  ///< particles
+    double memory;                            ///< bytes
+    double seconds;                           ///< expected on `threads` threads, until then
+    double longest_seconds;                   ///< over the whole duration
     int threads;
 };
 
@@ -39,4 +39,4 @@ double round_spacing(double spacing);
 /// if it pays for none. More budget never gives a coarser one.
 double finest_spacing(const Scene& scene, const Budget& budget, double coarsest);
 
-}  // namespace patency
+}   // namespace patency

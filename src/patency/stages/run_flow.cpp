@@ -36,20 +36,31 @@ namespace {
 // Instants that the means along a vessel are made of: a steady flow only trembles, a pulse has its form.
 constexpr int steady_instants = 8, periodic_instants = 40;
 
-bool is_steady_on_cells(const deck::Case& config) { return config.scheme() == deck::SchemeName::cells && config.about.mode == deck::Mode::steady; }
+bool is_steady_on_cells(const deck::Case& config) {
+    return config.scheme() == deck::SchemeName::cells && config.about.mode == deck::Mode::steady;
+}
 
 /// One flow stage from its folder's state to its end.
 class FlowJob {
 public:
     /// watch: since the stage began. restless: a steady flow on cells that has no rest and is followed in time.
-    FlowJob(const deck::Case& config, const FlowStage& stage, const Stopwatch& watch, const CellScene* restless = nullptr)
-        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("flow")), watch_(watch) {
+    FlowJob(const deck::Case& config, const FlowStage& stage, const Stopwatch& watch,
+            const CellScene* restless = nullptr)
+        : config_(config),
+          stage_(stage),
+          origin_(origin_of(config, stage.binary_hash)),
+          checkpoint_(stage.folder.checkpoint("flow")),
+          watch_(watch) {
         prepare(restless);
         expect_fields();
-        if (is_steady_on_cells(config_)) say(fmt::format("windows of {:.3g} ms, at most {:.3g} ms", 1e3 * window_->length(), 1e3 * config_.numerics.duration));
-        else if (is_on_cells()) say(fmt::format("{} cells, {} steps in a period", scene_->fluid.size(), config_.numerics.steps_per_period));
-        else say(fmt::format("{} particles of blood, {} of wall, sound speed {:.4g} m/s", scene_->fluid.size(), scene_->wall.size(),
-                             scene_->material.sound_speed));
+        if (is_steady_on_cells(config_))
+            say(fmt::format("windows of {:.3g} ms, at most {:.3g} ms", 1e3 * window_->length(),
+                            1e3 * config_.numerics.duration));
+        else if (is_on_cells())
+            say(fmt::format("{} cells, {} steps in a period", scene_->fluid.size(), config_.numerics.steps_per_period));
+        else
+            say(fmt::format("{} particles of blood, {} of wall, sound speed {:.4g} m/s", scene_->fluid.size(),
+                            scene_->wall.size(), scene_->material.sound_speed));
         build_wall_ = watch_.wall(), build_cpu_ = watch_.cpu();
         steps_before_ = scene_->acoustic_steps;
     }
@@ -94,7 +105,9 @@ private:
             const auto path = stage_.folder.file(table.name + ".csv");
             tables_.push_back(reader ? CsvWriter::resumed(path, table.columns, now) : CsvWriter(path, table.columns));
         }
-        recorder_->write_row = [this](std::size_t table, std::span<const double> values) { tables_.at(table).write_row(values); };
+        recorder_->write_row = [this](std::size_t table, std::span<const double> values) {
+            tables_.at(table).write_row(values);
+        };
         const auto series = stage_.folder.file("fluid.pvd");
         frames_.emplace(reader ? PvdWriter::resumed(series, now) : PvdWriter(series));
         is_resumed_ = reader.has_value();
@@ -105,7 +118,8 @@ private:
             if (!scene_->fluid.find(name)) {
                 std::vector<std::string> known;
                 for (const FieldBase* field : scene_->fluid.fields()) known.push_back(field->name());
-                throw DeckError(fmt::format("output.fields: the blood has no field '{}'; it has {}", name, join(known, ", ", " and ")));
+                throw DeckError(fmt::format("output.fields: the blood has no field '{}'; it has {}", name,
+                                            join(known, ", ", " and ")));
             }
     }
 
@@ -126,8 +140,9 @@ private:
         say(fmt::format("done: {} {} in {:.1f} s", scene_->acoustic_steps - steps_before_,
                         is_on_cells() ? "iterations" : "acoustic steps", watch_.wall() - build_wall_));
         if (!window_->is_watched() || window_->is_settled()) return Outcome::done;
-        stage_.log(LogLevel::warning,
-                   "the flow had not settled at the end of numerics.duration: the results are marked; give it a longer one");
+        stage_.log(
+            LogLevel::warning,
+            "the flow had not settled at the end of numerics.duration: the results are marked; give it a longer one");
         return Outcome::unsettled;
     }
 
@@ -146,11 +161,13 @@ private:
                                       {"is_mean_over_time", is_steady_on_cells(config_)}};
         if (vessel_) {
             std::vector<double> pressures;
-            for (std::size_t k = 0; k < scene_->ends.size(); ++k) pressures.push_back(mean_between(from, to, k, scene_->ends[k].area).pressure);
+            for (std::size_t k = 0; k < scene_->ends.size(); ++k)
+                pressures.push_back(mean_between(from, to, k, scene_->ends[k].area).pressure);
             const std::string& inlet = scene_->vessel->openings.front().opening.name;
             double at_inlet = 0, lowest = INFINITY;
             for (std::size_t k = 0; k < pressures.size(); ++k)
-                (scene_->ends[k].name == inlet ? at_inlet : lowest) = scene_->ends[k].name == inlet ? pressures[k] : std::min(lowest, pressures[k]);
+                (scene_->ends[k].name == inlet ? at_inlet : lowest) =
+                    scene_->ends[k].name == inlet ? pressures[k] : std::min(lowest, pressures[k]);
             const VesselFlow flow = evaluate_vessel(*scene_, *vessel_, at_inlet, lowest);
             add_vessel_summary(summary, *scene_, *vessel_, flow);
             write_vessel_files(stage_.folder, *scene_, *vessel_, flow);
@@ -167,7 +184,8 @@ private:
         }
         if (!window_->begin()) return false;
         const double begin = window_->begin()->time, length = window_->end() - begin;
-        const bool has_form = config_.about.mode == deck::Mode::periodic || is_steady_on_cells(config_);   // a pulse, or a jet that swings
+        const bool has_form = config_.about.mode == deck::Mode::periodic ||
+                              is_steady_on_cells(config_);   // a pulse, or a jet that swings
         const int wanted = has_form ? periodic_instants : steady_instants;
         return double(vessel_->instants()) < std::floor((scene_->time - begin) / length * wanted + 1e-9);
     }
@@ -176,7 +194,8 @@ private:
         std::vector<double> times = recorder_->exact_times();
         times.insert(times.end(), window_->exact_times().begin(), window_->exact_times().end());
         if (config_.output.interval)
-            for (double n = 1; n * *config_.output.interval < config_.numerics.duration; ++n) times.push_back(n * *config_.output.interval);
+            for (double n = 1; n * *config_.output.interval < config_.numerics.duration; ++n)
+                times.push_back(n * *config_.output.interval);
         std::sort(times.begin(), times.end());
         return times;
     }
@@ -184,15 +203,18 @@ private:
     void observe() {
         const bool is_block_end = window_->observe(*scene_), is_end = is_at_end();
         recorder_->observe(*scene_, is_end);
-        if (vessel_ && window_->slides() && (is_block_end || is_end)) vessel_->sample(*scene_);
-        else if (is_instant_due()) vessel_->sample(*scene_);
+        if (vessel_ && window_->slides() && (is_block_end || is_end))
+            vessel_->sample(*scene_);
+        else if (is_instant_due())
+            vessel_->sample(*scene_);
         if (vessel_ && is_block_end) vessel_->end_block(FlowWindow::blocks - 1);
         const auto& interval = config_.output.interval;
         if (is_end || (interval && scene_->time >= double(frames_->size()) * *interval)) write_frame();
         // Checkpoints lie between steps and clip none: when they are written changes no bit.
         const auto& every = config_.output.checkpoint_interval;
         const double age = watch_.wall() - last_checkpoint_wall_;
-        const bool is_due = every ? std::floor(scene_->time / *every) > std::floor(last_checkpoint_ / *every) : age > stage_.wall_between_checkpoints;
+        const bool is_due = every ? std::floor(scene_->time / *every) > std::floor(last_checkpoint_ / *every)
+                                  : age > stage_.wall_between_checkpoints;
         if (is_due && !is_end) write_checkpoint();
         if (stage_.progress) stage_.progress->update(progress());
     }
@@ -213,7 +235,10 @@ private:
     ProgressState progress() const {
         double out = 0;
         for (const OpenEnd& end : scene_->ends) out += end.flow;
-        return {.stage = "flow", .fraction = scene_->time / window_->end(), .time = scene_->time, .step = scene_->acoustic_steps,
+        return {.stage = "flow",
+                .fraction = scene_->time / window_->end(),
+                .time = scene_->time,
+                .step = scene_->acoustic_steps,
                 .net_inflow = -out};
     }
 
@@ -221,7 +246,10 @@ private:
         const double wall = watch_.wall() - build_wall_, cpu = watch_.cpu() - build_cpu_;
         const double steps = double(scene_->acoustic_steps - steps_before_);
         return {{"build", {{"cpu_s", build_cpu_}, {"wall_s", build_wall_}}},
-                {"flow", {{"cpu_s", cpu}, {"wall_s", wall}, {"particle_steps_per_cpu_s", cpu > 0 ? double(scene_->fluid.size()) * steps / cpu : 0.0}}},
+                {"flow",
+                 {{"cpu_s", cpu},
+                  {"wall_s", wall},
+                  {"particle_steps_per_cpu_s", cpu > 0 ? double(scene_->fluid.size()) * steps / cpu : 0.0}}},
                 {"resumed", is_resumed_},
                 {"threads", omp_get_max_threads()},
                 {"machine", machine_name()},
@@ -232,10 +260,13 @@ private:
     std::string describe_remains() const {
         const FluidParticles& fluid = scene_->fluid;
         std::vector<double> badness(fluid.size());
-        for (std::size_t i = 0; i < fluid.size(); ++i) badness[i] = norm(fluid.velocity[i]) + 0 * (fluid.pressure[i] + norm(fluid.position[i]));
+        for (std::size_t i = 0; i < fluid.size(); ++i)
+            badness[i] = norm(fluid.velocity[i]) + 0 * (fluid.pressure[i] + norm(fluid.position[i]));
         const std::vector<std::uint32_t> worst = worst_of(badness);
         const auto path = stage_.folder.file("offenders.vtp");
-        write_particles(path, fluid, {.time = scene_->time, .only = worst, .pressure_level = scene_->level(), .non_finite = NonFinite::allow});
+        write_particles(
+            path, fluid,
+            {.time = scene_->time, .only = worst, .pressure_level = scene_->level(), .non_finite = NonFinite::allow});
         return fmt::format("; at {:.6g} s. The fastest particles are in {}{}", scene_->time, path.string(),
                            stage_.folder.has_checkpoint("flow") ? ", the last good checkpoint is kept" : "");
     }
@@ -257,12 +288,13 @@ private:
     double last_checkpoint_ = 0, last_checkpoint_wall_ = 0;
 };
 
-}  // namespace
+}   // namespace
 
 Outcome run_flow(const deck::Case& config, const FlowStage& stage) {
     const Stopwatch watch;
     if (!is_steady_on_cells(config) || stage.folder.has_checkpoint("flow")) return FlowJob(config, stage, watch).run();
-    return run_cell_flow(config, stage, [&](const CellScene& restless) { return FlowJob(config, stage, watch, &restless).run(); });
+    return run_cell_flow(config, stage,
+                         [&](const CellScene& restless) { return FlowJob(config, stage, watch, &restless).run(); });
 }
 
-}  // namespace patency
+}   // namespace patency

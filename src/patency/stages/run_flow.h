@@ -14,11 +14,11 @@ namespace patency {
 
 struct FlowStage {
     const OutputFolder& folder;
-    std::string binary_hash = {};                  ///< of the program: another one would not go on with the same bits
-    std::function<bool()> interrupted = {};        ///< asked after every step
+    std::string binary_hash = {};             ///< of the program: another one would not go on with the same bits
+    std::function<bool()> interrupted = {};   ///< asked after every step
     Log log = no_log;
     Progress* progress = nullptr;
-    double wall_between_checkpoints = 300;         ///< where the deck has no checkpoint_interval [s of wall time]
+    double wall_between_checkpoints = 300;   ///< where the deck has no checkpoint_interval [s of wall time]
 };
 
 enum class Outcome {
@@ -33,4 +33,4 @@ enum class Outcome {
 /// DeckError, GeometryError, FileError, CheckpointError, DivergedError.
 Outcome run_flow(const deck::Case& config, const FlowStage& stage);
 
-}  // namespace patency
+}   // namespace patency

@@ -27,7 +27,10 @@ constexpr int rows_of_energies = 200;   // over the duration, where the deck nam
 class SolidJob {
 public:
     SolidJob(const deck::Case& config, const SolidStage& stage)
-        : config_(config), stage_(stage), origin_(origin_of(config, stage.binary_hash)), checkpoint_(stage.folder.checkpoint("solid")) {
+        : config_(config),
+          stage_(stage),
+          origin_(origin_of(config, stage.binary_hash)),
+          checkpoint_(stage.folder.checkpoint("solid")) {
         scene_ = build_solids(config);
         is_resumed_ = stage.folder.has_checkpoint("solid");
         if (is_resumed_) {
@@ -40,16 +43,20 @@ public:
         }
         for (const auto& part : scene_->system.parts) {
             const ElasticModuli m = part->solid.materials[0].moduli();
-            say(fmt::format("{}: {} particles; E {:.4g} Pa, nu {:.4g}, G {:.4g} Pa, K {:.4g} Pa", part->name, part->body->particles().size(), m.young(),
-                            m.poisson(), m.shear, m.bulk));
+            say(fmt::format("{}: {} particles; E {:.4g} Pa, nu {:.4g}, G {:.4g} Pa, K {:.4g} Pa", part->name,
+                            part->body->particles().size(), m.young(), m.poisson(), m.shear, m.bulk));
             const auto file = stage.folder.file(part->name + ".pvd");
             series_.push_back(is_resumed_ ? PvdWriter::resumed(file, scene_->time) : PvdWriter(file));
         }
         say(fmt::format("stable step {:.4g} s", stable_step(scene_->system)));
-        const std::vector<std::string> columns = {"time_s", "kinetic_j", "elastic_j", "hourglass_j", "plastic_j", "contact_j", "viscous_loss_j",
-                                                  "drag_loss_j", "friction_loss_j", "load_work_j", "constraint_work_j", "damping_loss_j", "tool_work_j", "hourglass_loss_j"};
+        const std::vector<std::string> columns = {"time_s",         "kinetic_j",         "elastic_j",
+                                                  "hourglass_j",    "plastic_j",         "contact_j",
+                                                  "viscous_loss_j", "drag_loss_j",       "friction_loss_j",
+                                                  "load_work_j",    "constraint_work_j", "damping_loss_j",
+                                                  "tool_work_j",    "hourglass_loss_j"};
         const auto table = stage.folder.file("energies.csv");
-        energies_ = std::make_unique<CsvWriter>(is_resumed_ ? CsvWriter::resumed(table, columns, scene_->time) : CsvWriter(table, columns));
+        energies_ = std::make_unique<CsvWriter>(is_resumed_ ? CsvWriter::resumed(table, columns, scene_->time)
+                                                            : CsvWriter(table, columns));
         last_checkpoint_ = scene_->time;
     }
 
@@ -57,7 +64,8 @@ public:
         try {
             return advance();
         } catch (const DivergedError& error) {
-            write_polydata(stage_.folder.file("offenders.vtp"), remains(), {.time = scene_->time, .non_finite = NonFinite::allow});
+            write_polydata(stage_.folder.file("offenders.vtp"), remains(),
+                           {.time = scene_->time, .non_finite = NonFinite::allow});
             throw DivergedError(fmt::format("{}; the solids as they were are in offenders.vtp", error.what()));
         }
     }
@@ -66,7 +74,8 @@ private:
     void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
 
     bool advance() {
-        const double end = config_.numerics.duration, interval = config_.output.interval.value_or(end), row = std::min(interval, end / rows_of_energies);
+        const double end = config_.numerics.duration, interval = config_.output.interval.value_or(end),
+                     row = std::min(interval, end / rows_of_energies);
         if (!is_resumed_) {
             write_row();
             if (config_.output.interval) write_frames();
@@ -95,7 +104,9 @@ private:
     }
 
     /// The first multiple of `interval` after a time that may be one itself, to round-off.
-    static double next_after(double time, double interval) { return interval * (std::floor(time / interval * (1 + 1e-12)) + 1); }
+    static double next_after(double time, double interval) {
+        return interval * (std::floor(time / interval * (1 + 1e-12)) + 1);
+    }
 
     bool is_checkpoint_due() const {   // between steps, and clips none: when it is written changes no bit
         const auto& every = config_.output.checkpoint_interval;
@@ -107,7 +118,12 @@ private:
         last_checkpoint_ = scene_->time, last_checkpoint_wall_ = watch_.wall();
     }
 
-    ProgressState progress() const { return {.stage = "solids", .fraction = scene_->time / config_.numerics.duration, .time = scene_->time, .step = scene_->steps}; }
+    ProgressState progress() const {
+        return {.stage = "solids",
+                .fraction = scene_->time / config_.numerics.duration,
+                .time = scene_->time,
+                .step = scene_->steps};
+    }
 
     void write_row() {
         SolidEnergy sum;
@@ -115,14 +131,17 @@ private:
         for (auto& part : scene_->system.parts) {
             const SolidEnergy e = part->body->energy();
             sum.kinetic += e.kinetic, sum.elastic += e.elastic, sum.hourglass += e.hourglass, sum.plastic += e.plastic;
-            sum.yielded += e.yielded, sum.viscous += e.viscous, sum.drag += e.drag, sum.load_work += e.load_work, sum.constraint_work += e.constraint_work;
+            sum.yielded += e.yielded, sum.viscous += e.viscous, sum.drag += e.drag, sum.load_work += e.load_work,
+                sum.constraint_work += e.constraint_work;
         }
         for (const auto& c : scene_->system.contacts) {
             const ContactReport r = c->report();
-            contact.energy += r.energy, contact.friction_loss += r.friction_loss, contact.damping_loss += r.damping_loss, contact.work += r.work;
+            contact.energy += r.energy, contact.friction_loss += r.friction_loss,
+                contact.damping_loss += r.damping_loss, contact.work += r.work;
         }
-        energies_->write_row({scene_->time, sum.kinetic, sum.elastic, sum.hourglass, sum.plastic, contact.energy, sum.viscous, sum.drag,
-                              contact.friction_loss, sum.load_work, sum.constraint_work, contact.damping_loss, contact.work, sum.yielded});
+        energies_->write_row({scene_->time, sum.kinetic, sum.elastic, sum.hourglass, sum.plastic, contact.energy,
+                              sum.viscous, sum.drag, contact.friction_loss, sum.load_work, sum.constraint_work,
+                              contact.damping_loss, contact.work, sum.yielded});
     }
 
     void write_frames() {
@@ -150,7 +169,9 @@ private:
     }
 
     nlohmann::ordered_json timing() const {
-        return {{"machine", machine_name()}, {"threads", omp_get_max_threads()}, {"solids", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}}}};
+        return {{"machine", machine_name()},
+                {"threads", omp_get_max_threads()},
+                {"solids", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}}}};
     }
 
     const deck::Case& config_;

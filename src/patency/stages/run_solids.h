@@ -17,7 +17,7 @@ struct SolidStage {
     std::function<bool()> interrupted = {};   ///< asked after every step
     Log log = no_log;
     Progress* progress = nullptr;
-    double wall_between_checkpoints = 300;    ///< where the deck has no checkpoint_interval [s of wall time]
+    double wall_between_checkpoints = 300;   ///< where the deck has no checkpoint_interval [s of wall time]
 };
 
 /// Goes on where the folder's checkpoint of solids stands, else begins (the caller clears the folder to begin anew); the results

@@ -33,18 +33,18 @@ struct Scene {
     std::unique_ptr<Frame> frame;
     FluidParticles fluid;
     WallParticles wall;
-    std::vector<OpenEnd> ends;    ///< as lumen.openings
-    std::vector<EndLaw> laws;     ///< as ends: what the deck imposes there
+    std::vector<OpenEnd> ends;   ///< as lumen.openings
+    std::vector<EndLaw> laws;    ///< as ends: what the deck imposes there
     FluidMaterial material;
     FlowNumerics numerics;
     std::unique_ptr<FlowScheme> scheme;
-    RelaxQuality relax_quality{}; ///< of the points it started from
-    std::string start_remark{};   ///< what the flow started from, if there is something to say
+    RelaxQuality relax_quality{};                    ///< of the points it started from
+    std::string start_remark{};                      ///< what the flow started from, if there is something to say
     std::function<double(const Vec3&)> spacing_at;   ///< [m]; empty: numerics.spacing everywhere
     std::optional<WallParts> wall_parts;             ///< of a scheme that knows the flow at the wall itself
 
-    double time = 0;                 ///< [s]
-    double datum = 0;                ///< what the deck's pressures are above in config, laws and estimate: never moves [Pa]
+    double time = 0;    ///< [s]
+    double datum = 0;   ///< what the deck's pressures are above in config, laws and estimate: never moves [Pa]
     double reference_pressure = 0;   ///< p_ref, above the datum: fluid.pressure and the ends' are above it [Pa]
     double last_dt = 0;              ///< of the last advection step [s]
     double unsettled = 0;            ///< length of an acoustic step that the ends' integrals lack; 0 between steps [s]
@@ -55,4 +55,4 @@ struct Scene {
     double pressure_of(std::size_t i) const { return fluid.pressure[i] + level(); }
 };
 
-}  // namespace patency
+}   // namespace patency

@@ -18,13 +18,15 @@ WallHint wall_hint(const Scene& scene) {
                   .velocity = {}};
     const WallParticles& wall = scene.wall;
     for (std::size_t i = 0; i < wall.size(); ++i)
-        if (wall.depth[i] < spacing_at(scene, wall.position[i])) hint.points.push_back(wall.position[i] - wall.depth[i] * wall.normal[i]);
+        if (wall.depth[i] < spacing_at(scene, wall.position[i]))
+            hint.points.push_back(wall.position[i] - wall.depth[i] * wall.normal[i]);
     return hint;
 }
 
 WallFlow wall_flow(const Scene& scene, const WallPlaces& places, const WallHint& hint) {
     // Four parts or so to a place's side.
-    if (scene.wall_parts) return flow_of_parts(*scene.wall_parts, places, [&](const Vec3& x) { return 2 * spacing_at(scene, x); });
+    if (scene.wall_parts)
+        return flow_of_parts(*scene.wall_parts, places, [&](const Vec3& x) { return 2 * spacing_at(scene, x); });
     const double mu = scene.material.viscosity;
     const auto constant = [mu](double) { return mu; };
     return flow_at_wall(scene.fluid, *scene.frame, places, sampling_reach(scene), hint,

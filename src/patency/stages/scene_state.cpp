@@ -78,14 +78,15 @@ private:
         const std::size_t k = read_[name]++;
         const auto found = map.find(name);
         if (found == map.end() || k >= found->second.size())
-            throw CheckpointError(fmt::format("the checkpoint has no '{}' number {}: it is not of this case", name, k + 1));
+            throw CheckpointError(
+                fmt::format("the checkpoint has no '{}' number {}: it is not of this case", name, k + 1));
         return found->second[k];
     }
     const NamedNumbers& from_;
     std::map<std::string, std::size_t> read_;
 };
 
-}  // namespace
+}   // namespace
 
 NamedNumbers numbers_of(const Scene& scene) {
     NamedNumbers numbers;
@@ -99,4 +100,4 @@ void restore_numbers(Scene& scene, const NamedNumbers& numbers) {
     reader.expect_all_read();
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -25,4 +25,4 @@ NamedNumbers numbers_of(const Scene& scene);
 /// fit the deck's openings. Particles are put back by the caller, then start_scheme.
 void restore_numbers(Scene& scene, const NamedNumbers& numbers);
 
-}  // namespace patency
+}   // namespace patency

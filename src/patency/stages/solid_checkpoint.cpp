@@ -14,7 +14,8 @@ void write_solids(CheckpointWriter& writer, const SolidSystem& system, const std
         writer.write(own + "/body", part->body->state());
         writer.write(own + "/stride", std::int64_t(part->stride));
     }
-    for (std::size_t k = 0; k < system.contacts.size(); ++k) writer.write(fmt::format("{}/contacts/{}", name, k), system.contacts[k]->state());
+    for (std::size_t k = 0; k < system.contacts.size(); ++k)
+        writer.write(fmt::format("{}/contacts/{}", name, k), system.contacts[k]->state());
 }
 
 void read_solids(const CheckpointReader& reader, SolidSystem& system, const std::string& name) {
@@ -23,7 +24,8 @@ void read_solids(const CheckpointReader& reader, SolidSystem& system, const std:
         const std::size_t count = part->body->particles().size();
         reader.read(part->body->particles(), own + "/particles");
         if (part->body->particles().size() != count)
-            throw CheckpointError(fmt::format("{} has {} particles in the checkpoint and {} in this deck", part->name, part->body->particles().size(), count));
+            throw CheckpointError(fmt::format("{} has {} particles in the checkpoint and {} in this deck", part->name,
+                                              part->body->particles().size(), count));
         part->body->restore(reader.read<std::vector<double>>(own + "/body"));
         part->stride = int(reader.read<std::int64_t>(own + "/stride"));
         if (part->surface) part->surface->follow(part->body->particles());
@@ -34,7 +36,8 @@ void read_solids(const CheckpointReader& reader, SolidSystem& system, const std:
     }
 }
 
-void write_solid_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin, const SolidScene& scene) {
+void write_solid_checkpoint(const std::filesystem::path& path, const CheckpointOrigin& origin,
+                            const SolidScene& scene) {
     CheckpointWriter writer(path, origin);
     write_solids(writer, scene.system, "solids");
     writer.write("time", scene.time);

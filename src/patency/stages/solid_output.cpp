@@ -26,9 +26,15 @@ void append(std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v.x, 
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Json energy_json(const SolidEnergy& e) {
-    return {{"kinetic_j", e.kinetic},       {"elastic_j", e.elastic},       {"hourglass_j", e.hourglass},
-            {"plastic_j", e.plastic},       {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous},  {"drag_loss_j", e.drag},
-            {"load_work_j", e.load_work},   {"constraint_work_j", e.constraint_work},
+    return {{"kinetic_j", e.kinetic},
+            {"elastic_j", e.elastic},
+            {"hourglass_j", e.hourglass},
+            {"plastic_j", e.plastic},
+            {"hourglass_loss_j", e.yielded},
+            {"viscous_loss_j", e.viscous},
+            {"drag_loss_j", e.drag},
+            {"load_work_j", e.load_work},
+            {"constraint_work_j", e.constraint_work},
             {"kinetic_to_internal", e.internal() > 0 ? Json(e.kinetic / e.internal()) : Json()}};
 }
 
@@ -47,12 +53,16 @@ Json part_json(SolidPart& part) {
         mass += p.mass[i], centre += p.mass[i] * p.position[i], momentum += p.mass[i] * p.velocity[i];
     }
     Json reactions = Json::array();
-    for (std::size_t k = 0; k < part.solid.constraints.size(); ++k) reactions.push_back(vector_json(body.reaction_impulse(k)));
+    for (std::size_t k = 0; k < part.solid.constraints.size(); ++k)
+        reactions.push_back(vector_json(body.reaction_impulse(k)));
     return {{"particles", p.size()},
             {"mass_scaling", part.mass_scaling},
             {"neighbours", body.mean_neighbours()},
             {"mass_kg", mass},
-            {"young_pa", m.young()}, {"poisson", m.poisson()}, {"shear_pa", m.shear}, {"bulk_pa", m.bulk},
+            {"young_pa", m.young()},
+            {"poisson", m.poisson()},
+            {"shear_pa", m.shear},
+            {"bulk_pa", m.bulk},
             {"centre_m", vector_json(centre / mass)},
             {"momentum_kg_m_per_s", vector_json(momentum)},
             {"largest_displacement_m", farthest},
@@ -77,7 +87,8 @@ PolyData solid_picture(SolidPart& part) {
     PolyData data;
     data.points.assign(p.position.begin(), p.position.end());
     PointArray displacement{"displacement", "m", 3}, velocity{"velocity", "m/s", 3}, mises{"von_mises_stress", "Pa", 1},
-        stress{"stress", "Pa", 9}, stretches{"principal_stretches", "1", 3}, volume{"volume_ratio", "1", 1}, plastic{"plastic_strain", "1", 1};
+        stress{"stress", "Pa", 9}, stretches{"principal_stretches", "1", 3}, volume{"volume_ratio", "1", 1},
+        plastic{"plastic_strain", "1", 1};
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Mat3 F = body.deformation(i), s = body.cauchy(i);
         append(displacement.values, p.position[i] - p.reference[i]);
@@ -88,7 +99,8 @@ PolyData solid_picture(SolidPart& part) {
         volume.values.push_back(determinant(F));
         plastic.values.push_back(p.plastic_strain[i]);
     }
-    for (PointArray* array : {&displacement, &velocity, &mises, &stress, &stretches, &volume, &plastic}) data.arrays.push_back(std::move(*array));
+    for (PointArray* array : {&displacement, &velocity, &mises, &stress, &stretches, &volume, &plastic})
+        data.arrays.push_back(std::move(*array));
     return data;
 }
 
@@ -101,9 +113,17 @@ nlohmann::ordered_json solid_summary(SolidScene& scene) {
     for (std::size_t k = 0; k < scene.system.contacts.size(); ++k) {
         const ContactReport r = scene.system.contacts[k]->report();
         const deck::ContactDeck& said = scene.config.contacts[k];
-        contacts.push_back({{"solid", said.solid}, {"with", other_of(said)}, {"force_n", vector_json(r.force)}, {"touching_vertices", r.touching},
-                            {"largest_penetration_m", r.deepest}, {"energy_j", r.energy}, {"friction_loss_j", r.friction_loss},
-                            {"damping_loss_j", r.damping_loss}, {"work_j", r.work}, {"normal_force_n", r.normal_force}, {"pressure_pa", r.pressure}});
+        contacts.push_back({{"solid", said.solid},
+                            {"with", other_of(said)},
+                            {"force_n", vector_json(r.force)},
+                            {"touching_vertices", r.touching},
+                            {"largest_penetration_m", r.deepest},
+                            {"energy_j", r.energy},
+                            {"friction_loss_j", r.friction_loss},
+                            {"damping_loss_j", r.damping_loss},
+                            {"work_j", r.work},
+                            {"normal_force_n", r.normal_force},
+                            {"pressure_pa", r.pressure}});
     }
     summary["solids"] = std::move(solids);
     summary["contacts"] = std::move(contacts);

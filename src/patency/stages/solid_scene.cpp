@@ -22,7 +22,8 @@ namespace {
 SolidFill fill_whole(const deck::SolidShape& s, double spacing, bool planar) {
     switch (s.type) {
         case deck::SolidShapeType::box: return fill_box(s.from, s.to, spacing, planar);
-        case deck::SolidShapeType::cylinder: return fill_cylinder(s.from, s.to, 0.5 * s.inner_diameter, 0.5 * s.diameter, spacing, planar);
+        case deck::SolidShapeType::cylinder:
+            return fill_cylinder(s.from, s.to, 0.5 * s.inner_diameter, 0.5 * s.diameter, spacing, planar);
         case deck::SolidShapeType::sphere:
         case deck::SolidShapeType::stent: break;   // a stent is made as one
     }
@@ -33,7 +34,8 @@ SolidFill fill_whole(const deck::SolidShape& s, double spacing, bool planar) {
 SolidFill fill_shape(const deck::SolidShape& s, double spacing, bool planar, const std::string& path) {
     SolidFill fill = fill_whole(s, spacing, planar);
     if (s.low) fill = cut_to_box(fill, *s.low, *s.high);
-    if (fill.places.empty() || fill.surface.elements.empty()) throw DeckError(path + ".shape.low: nothing of the solid, or of its surface, lies above it and below `high`");
+    if (fill.places.empty() || fill.surface.elements.empty())
+        throw DeckError(path + ".shape.low: nothing of the solid, or of its surface, lies above it and below `high`");
     return fill;
 }
 
@@ -54,7 +56,8 @@ SolidNumerics make_solid_numerics(const deck::Case& config, const deck::SolidDec
 std::uint16_t face_of(const SurfaceElements& surface, const std::string& name, const std::string& key) {
     const auto found = std::find(surface.faces.begin(), surface.faces.end(), name);
     if (found != surface.faces.end()) return std::uint16_t(found - surface.faces.begin());
-    throw DeckError(key + ": there is no face " + double_quoted(shortened(name)) + "; there are " + join(surface.faces, ", ", " and "));
+    throw DeckError(key + ": there is no face " + double_quoted(shortened(name)) + "; there are " +
+                    join(surface.faces, ", ", " and "));
 }
 
 double distance_to_face(const Vec3& x, const SurfaceElements& surface, std::uint16_t face, bool planar) {
@@ -70,18 +73,25 @@ double distance_to_face(const Vec3& x, const SurfaceElements& surface, std::uint
 }
 
 /// Whether a particle lies in the box of a hold, or in the layer at its face: particles there are half a spacing deep.
-bool is_held(const Vec3& x, const deck::Hold& h, const SurfaceElements& surface, const std::string& key, const SolidNumerics& numerics) {
-    if (h.face) return distance_to_face(x, surface, face_of(surface, *h.face, key + ".face"), numerics.planar) < 0.75 * numerics.spacing;
-    return x.x >= h.low->x && x.x <= h.high->x && x.y >= h.low->y && x.y <= h.high->y && x.z >= h.low->z && x.z <= h.high->z;
+bool is_held(const Vec3& x, const deck::Hold& h, const SurfaceElements& surface, const std::string& key,
+             const SolidNumerics& numerics) {
+    if (h.face)
+        return distance_to_face(x, surface, face_of(surface, *h.face, key + ".face"), numerics.planar) <
+               0.75 * numerics.spacing;
+    return x.x >= h.low->x && x.x <= h.high->x && x.y >= h.low->y && x.y <= h.high->y && x.z >= h.low->z &&
+           x.z <= h.high->z;
 }
 
-void hold_particles(const deck::SolidDeck& said, const std::string& path, const SurfaceElements& surface, const SolidNumerics& numerics, Solid& solid) {
+void hold_particles(const deck::SolidDeck& said, const std::string& path, const SurfaceElements& surface,
+                    const SolidNumerics& numerics, Solid& solid) {
     SolidParticles& p = solid.particles;
     for (std::size_t k = 0; k < said.holds.size(); ++k) {
         const deck::Hold& h = said.holds[k];
         Constraint constraint{.held = h.axes, .displacement = {}};
         if (norm(h.displacement) > 0)
-            constraint.displacement = [to = h.displacement, ramp = h.ramp](const Vec3&, double time) { return smooth_rise(ramp > 0 ? time / ramp : 1.0) * to; };
+            constraint.displacement = [to = h.displacement, ramp = h.ramp](const Vec3&, double time) {
+                return smooth_rise(ramp > 0 ? time / ramp : 1.0) * to;
+            };
         solid.constraints.push_back(constraint);
         const std::string key = path + ".holds." + std::to_string(k);
         std::size_t count = 0;
@@ -129,12 +139,14 @@ std::function<double(double)> make_pressure(const deck::FacePressure& said) {
     };
 }
 
-std::unique_ptr<SolidPart> make_stent_solid(const deck::Case& config, const deck::SolidDeck& said, const std::string& path, SolidNumerics numerics) {
+std::unique_ptr<SolidPart> make_stent_solid(const deck::Case& config, const deck::SolidDeck& said,
+                                            const std::string& path, SolidNumerics numerics) {
     const deck::Stent& stent = *config.stent;
     const MadeStent made = make_stent(stent);
     const StentAxis axis = stent.placement ? make_stent_axis(*stent.placement, made.pattern) : StentAxis();
     numerics.spacing = said.spacing ? *said.spacing : stent.spacing.value_or(largest_stent_spacing(made.form));
-    auto part = make_stent_part(said.name, made.form, axis, make_solid_material(said.material, path + ".material"), numerics, said.mass_scaling);
+    auto part = make_stent_part(said.name, made.form, axis, make_solid_material(said.material, path + ".material"),
+                                numerics, said.mass_scaling);
     for (Vec3& v : part->solid.particles.velocity) v = said.velocity;
     return part;
 }
@@ -160,9 +172,12 @@ std::unique_ptr<SolidPart> make_part(const deck::Case& config, std::size_t index
     hold_particles(said, path, fill.surface, numerics, solid);
     lay_fibres(said, path, solid);
     part->body = make_solid_body(solid, numerics);
-    part->surface = std::make_unique<SolidSurface>(fill.surface, solid.particles, numerics.kernel().support(), numerics.planar);
+    part->surface =
+        std::make_unique<SolidSurface>(fill.surface, solid.particles, numerics.kernel().support(), numerics.planar);
     for (std::size_t k = 0; k < said.pressures.size(); ++k)
-        part->pressures.push_back({face_of(fill.surface, said.pressures[k].face, path + ".pressures." + std::to_string(k) + ".face"), make_pressure(said.pressures[k])});
+        part->pressures.push_back(
+            {face_of(fill.surface, said.pressures[k].face, path + ".pressures." + std::to_string(k) + ".face"),
+             make_pressure(said.pressures[k])});
     return part;
 }
 
@@ -183,7 +198,8 @@ std::size_t SolidScene::particle_count() const {
 
 static std::unique_ptr<Contact> make_contact(SolidScene& scene, const deck::ContactDeck& said, double step) {
     SolidSurface& surface = *scene.part(said.solid).surface;
-    const ContactNumerics numerics{.friction = said.friction, .damping = said.damping, .step = step, .holds = scene.system.is_relaxed};
+    const ContactNumerics numerics{
+        .friction = said.friction, .damping = said.damping, .step = step, .holds = scene.system.is_relaxed};
     if (said.plane) return make_plane_contact(surface, said.plane->point, normalized(said.plane->normal), numerics);
     if (said.tool) return make_tool_contact(surface, make_radial_tool(*said.tool), numerics);
     return make_surface_contact(surface, *scene.part(*said.with).surface, numerics);
@@ -197,7 +213,8 @@ std::unique_ptr<SolidScene> build_solids(const deck::Case& config) {
     scene->system.is_relaxed = config.numerics.solid.relaxation == deck::Relaxation::adaptive;
     for (std::size_t k = 0; k < config.solids.size(); ++k) scene->system.parts.push_back(make_part(config, k));
     const double step = stable_step(scene->system);
-    for (const deck::ContactDeck& said : config.contacts) scene->system.contacts.push_back(make_contact(*scene, said, step));
+    for (const deck::ContactDeck& said : config.contacts)
+        scene->system.contacts.push_back(make_contact(*scene, said, step));
     return scene;
 }
 

@@ -13,9 +13,9 @@ namespace patency {
 struct SolidScene {
     deck::Case config;
     SolidSystem system;
-    double time = 0;            ///< [s]
-    double dt = 0;              ///< [s] that the next steps may take
-    std::int64_t steps = 0;     ///< of the fastest part
+    double time = 0;          ///< [s]
+    double dt = 0;            ///< [s] that the next steps may take
+    std::int64_t steps = 0;   ///< of the fastest part
 
     const SolidPart& part(const std::string& name) const;   ///< @throws DeckError if there is none
     SolidPart& part(const std::string& name);

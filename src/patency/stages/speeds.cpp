@@ -21,7 +21,8 @@ constexpr double pulse_number = 0.1;      // omega L / c
 /// The smallest and the largest value of f over the run or a period.
 template <class F>
 std::pair<double, double> range_of(const deck::Case& config, F f) {
-    const double span = config.about.period ? std::min(*config.about.period, config.numerics.duration) : config.numerics.duration;
+    const double span =
+        config.about.period ? std::min(*config.about.period, config.numerics.duration) : config.numerics.duration;
     double low = f(0.0), high = low;
     for (int k = 1; k <= samples; ++k) {
         const double value = f(span * k / samples);
@@ -62,9 +63,10 @@ double flow_through_resistances(std::span<const EndLaw> laws, double pressure) {
     return flow;
 }
 
-}  // namespace
+}   // namespace
 
-Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws, const FluidMaterial& material) {
+Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws,
+                           const FluidMaterial& material) {
     const double rho = material.density, mu = material.viscosity, length = length_of(lumen);
     const Passage& passage = lumen.passage;
     Expected expected;
@@ -84,7 +86,9 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     // A developed profile behind a plug, and continuity through the narrowest place.
     const double developed = parabola_profile(lumen.planar ? Section::planar : Section::circular, 0);
     if (is_branching(config.geometry)) expected.speed *= developed / std::max(1.0, std::min(developed, largest_peak));
-    const auto speed_of = [&](double flow) { return passage.tightest_area > 0 ? flow / passage.tightest_area * std::max(largest_peak, developed) : 0; };
+    const auto speed_of = [&](double flow) {
+        return passage.tightest_area > 0 ? flow / passage.tightest_area * std::max(largest_peak, developed) : 0;
+    };
     expected.speed = std::max(expected.speed, speed_of(inflow));
 
     double lowest = Bounds::infinity, highest = -Bounds::infinity, offset = 0, lowest_held = Bounds::infinity;
@@ -122,7 +126,8 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     }
     if (config.numerics.reference_speed) expected.speed = *config.numerics.reference_speed;
     if (!(expected.speed > 0))
-        throw DeckError("numerics.reference_speed: nothing in the deck moves the blood, so no speed can be estimated; give one");
+        throw DeckError(
+            "numerics.reference_speed: nothing in the deck moves the blood, so no speed can be estimated; give one");
 
     // What flows loses pressure: the dynamic one and Poiseuille's.
     const double dynamic = 0.5 * rho * expected.speed * expected.speed;
@@ -133,8 +138,8 @@ Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::sp
     return expected;
 }
 
-void expect_estimate(Expected& expected, const deck::Case& config, const EstimatedField& field, std::span<const EndLaw> laws,
-                     const FluidMaterial& material) {
+void expect_estimate(Expected& expected, const deck::Case& config, const EstimatedField& field,
+                     std::span<const EndLaw> laws, const FluidMaterial& material) {
     double pulse = 1;   // largest over mean of what drives
     for (const EndLaw& law : laws) {
         const double mean = law.signal.waveform.mean();
@@ -143,16 +148,20 @@ void expect_estimate(Expected& expected, const deck::Case& config, const Estimat
         pulse = std::max(pulse, std::max(-low, high) / std::abs(mean));
     }
     if (!config.numerics.reference_speed) expected.speed = pulse * field.largest_speed();
-    expected.pressure_range = pulse * pulse * field.pressure_range() + 0.5 * material.density * expected.speed * expected.speed;
+    expected.pressure_range =
+        pulse * pulse * field.pressure_range() + 0.5 * material.density * expected.speed * expected.speed;
 }
 
-double choose_sound_speed(const deck::Case& config, const Lumen& lumen, const Expected& expected, const FluidMaterial& material) {
+double choose_sound_speed(const deck::Case& config, const Lumen& lumen, const Expected& expected,
+                          const FluidMaterial& material) {
     const deck::Numerics& numerics = config.numerics;
     if (numerics.sound_speed) return *numerics.sound_speed;
     if (numerics.sound_speed_factor) return *numerics.sound_speed_factor * expected.speed;
-    double c = std::max(expected.speed / mach, std::sqrt(expected.pressure_range / (density_change * material.density)));
-    if (config.about.period) c = std::max(c, 2 * std::numbers::pi / *config.about.period * length_of(lumen) / pulse_number);
+    double c =
+        std::max(expected.speed / mach, std::sqrt(expected.pressure_range / (density_change * material.density)));
+    if (config.about.period)
+        c = std::max(c, 2 * std::numbers::pi / *config.about.period * length_of(lumen) / pulse_number);
     return c;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -22,16 +22,18 @@ struct Expected {
 /// From the openings' velocities and flows, through the narrowest section; else from the pressures that drive: the
 /// smallest of Poiseuille's, Bernoulli's and what the resistances behind the outlets let out; walls, body force and initial
 /// velocity alike.
-Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws, const FluidMaterial& material);
+Expected estimate_expected(const deck::Case& config, const Lumen& lumen, std::span<const EndLaw> laws,
+                           const FluidMaterial& material);
 
 /// What the estimate of a vessel says of the same, at the height of the pulse that drives it; it overrules what was told from
 /// the openings alone, but no reference_speed of the deck.
-void expect_estimate(Expected& expected, const deck::Case& config, const EstimatedField& field, std::span<const EndLaw> laws,
-                     const FluidMaterial& material);
+void expect_estimate(Expected& expected, const deck::Case& config, const EstimatedField& field,
+                     std::span<const EndLaw> laws, const FluidMaterial& material);
 
 /// numerics.sound_speed, or sound_speed_factor times the expected speed; else the largest of 10 times that speed
 /// (density within 1 %), sqrt(pressure range / (0.01 rho)) and, of a pulse, omega L / 0.1 (a wave passes in a sixtieth of
 /// the period).
-double choose_sound_speed(const deck::Case& config, const Lumen& lumen, const Expected& expected, const FluidMaterial& material);
+double choose_sound_speed(const deck::Case& config, const Lumen& lumen, const Expected& expected,
+                          const FluidMaterial& material);
 
-}  // namespace patency
+}   // namespace patency

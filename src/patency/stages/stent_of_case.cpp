@@ -14,7 +14,8 @@ namespace patency {
 namespace {
 
 void expect_length_of_a_design(const deck::Stent& stent) {
-    if (stent.length && !stent.design) throw DeckError("stent.length: is that of a design of the library; a pattern or a surface has its own");
+    if (stent.length && !stent.design)
+        throw DeckError("stent.length: is that of a design of the library; a pattern or a surface has its own");
 }
 
 /// What the library says of a name that it lacks is a mistake at the deck's key.

@@ -22,8 +22,9 @@ constexpr double stent_hourglass = 0.3;
 
 double stent_step_share(const StentForm& form) { return std::holds_alternative<ImportedStent>(form) ? 0.4 : 1; }
 
-std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis, const SolidMaterial& material,
-                                           const SolidNumerics& numerics, double mass_scaling) {
+std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis,
+                                           const SolidMaterial& material, const SolidNumerics& numerics,
+                                           double mass_scaling) {
     SolidNumerics driven = numerics;   // a stent goes where tools and walls take it
     driven.second_order = true;
     driven.hourglass = stent_hourglass;
@@ -44,8 +45,8 @@ std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentF
         solid.particles.mass[i] = solid.materials[0].density * metal.volume[i];
     }
     part->body = make_solid_body(solid, driven);
-    part->surface = std::make_unique<SolidSurface>(make_stent_skin(form, axis, spacings_per_element * numerics.spacing), solid.particles,
-                                                   numerics.kernel().support(), false);
+    part->surface = std::make_unique<SolidSurface>(make_stent_skin(form, axis, spacings_per_element * numerics.spacing),
+                                                   solid.particles, numerics.kernel().support(), false);
     return part;
 }
 
@@ -74,7 +75,8 @@ StentShape measure_stent_shape(const SolidPart& stent, const StentAxis& axis) {
         all.add(diameter, outer[v]);
         if (share < 0.125 || share > 0.875) ends.add(diameter, outer[v]);
         if (share > 0.375 && share < 0.625) middle.add(diameter, outer[v]);
-        shape.least_diameter = std::min(shape.least_diameter, diameter), shape.largest_diameter = std::max(shape.largest_diameter, diameter);
+        shape.least_diameter = std::min(shape.least_diameter, diameter),
+        shape.largest_diameter = std::max(shape.largest_diameter, diameter);
     }
     shape.outer_diameter = all.value(), shape.end_diameter = ends.value(), shape.middle_diameter = middle.value();
     return shape;

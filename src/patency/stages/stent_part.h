@@ -24,15 +24,17 @@ double stent_step_share(const StentForm& form);
 /// The stent as it was made, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
 /// every strut (largest_stent_spacing); mass_scaling multiplies the material's density. Its surface has the faces outer,
 /// inner and side (stent_skin.h). Throws GeometryError if that is too coarse.
-std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis, const SolidMaterial& material,
-                                           const SolidNumerics& numerics, double mass_scaling = 1);
+std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis,
+                                           const SolidMaterial& material, const SolidNumerics& numerics,
+                                           double mass_scaling = 1);
 
 /// The means of a stent, or of any tube around the axis, as it is now.
 struct StentShape {
-    double outer_diameter = 0;   ///< twice the mean distance of the outer face from the axis [m]
+    double outer_diameter = 0;                         ///< twice the mean distance of the outer face from the axis [m]
     double least_diameter = 0, largest_diameter = 0;   ///< of its vertices
-    double length = 0;           ///< between its ends along the axis [m]
-    double end_diameter = 0, middle_diameter = 0;   ///< means over the outer eighths and the middle quarter of its length [m]
+    double length = 0;                                 ///< between its ends along the axis [m]
+    double end_diameter = 0,
+           middle_diameter = 0;   ///< means over the outer eighths and the middle quarter of its length [m]
 };
 StentShape measure_stent_shape(const SolidPart& stent, const StentAxis& axis);
 

@@ -27,15 +27,20 @@ const Branch& branch_of(const deck::StentPlacement& said, const std::vector<Bran
         if (said.branch ? branch.name == *said.branch : branches.size() == 1) return branch;
         names.push_back(branch.name);
     }
-    if (!said.branch) throw DeckError(fmt::format("stent.placement.branch: is missing; the vessel has {}", join(names, ", ", " and ")));
+    if (!said.branch)
+        throw DeckError(
+            fmt::format("stent.placement.branch: is missing; the vessel has {}", join(names, ", ", " and ")));
     const std::string near = nearest_name(*said.branch, names);
-    throw DeckError(fmt::format("stent.placement.branch: the vessel has no branch {}{}; it has {}", double_quoted(shortened(*said.branch)),
+    throw DeckError(fmt::format("stent.placement.branch: the vessel has no branch {}{}; it has {}",
+                                double_quoted(shortened(*said.branch)),
                                 near.empty() ? "" : ", did you mean " + near + "?", join(names, ", ", " and ")));
 }
 
 Middle middle_at_lesion(const VesselAlong& along) {
     if (along.assessment.lesions.empty())
-        throw DeckError("stent.placement: is missing, and the vessel has no lesion of 25 % or more to put the stent in; give branch and arc_length");
+        throw DeckError(
+            "stent.placement: is missing, and the vessel has no lesion of 25 % or more to put the stent in; give "
+            "branch and arc_length");
     const Lesion& worst = along.assessment.lesions.front();
     return {worst.line, 0.5 * (worst.start_arc + worst.end_arc)};
 }
@@ -57,39 +62,51 @@ Middle middle_of(const deck::Stent& stent, const VesselAlong& along) {
     const Branch& branch = branch_of(said, along.lines.branches);
     const double length = along.lines.end_arc(branch) - along.lines.start_arc(branch);
     if (*said.arc_length > length)
-        throw GeometryError(fmt::format("stent.placement.arc_length: {:.4g} mm is past the end of branch {}, which is {:.4g} mm long.", 1e3 * *said.arc_length,
-                                        branch.name, 1e3 * length));
+        throw GeometryError(
+            fmt::format("stent.placement.arc_length: {:.4g} mm is past the end of branch {}, which is {:.4g} mm long.",
+                        1e3 * *said.arc_length, branch.name, 1e3 * length));
     return {branch.line, along.lines.start_arc(branch) + *said.arc_length};
 }
 
 void expect_diameters(const StentPlace& place, const deck::Deployment& deployment) {
     if (!(place.crimped_diameter > 0))
-        throw DeckError("deployment.crimped_diameter: is missing; a stent that comes as a surface does not say what it is crimped to");
-    const bool has_pattern = std::holds_alternative<StrutCurves>(place.form);   // a surface shows a stent that may be open already
+        throw DeckError(
+            "deployment.crimped_diameter: is missing; a stent that comes as a surface does not say what it is crimped "
+            "to");
+    const bool has_pattern =
+        std::holds_alternative<StrutCurves>(place.form);   // a surface shows a stent that may be open already
     if (has_pattern && !(place.diameter > place.pattern.diameter))
-        throw DeckError(fmt::format("deployment.diameter: {:.4g} mm does not open a stent that was cut at {:.4g} mm; give a larger one", 1e3 * place.diameter,
-                                    1e3 * place.pattern.diameter));
+        throw DeckError(fmt::format(
+            "deployment.diameter: {:.4g} mm does not open a stent that was cut at {:.4g} mm; give a larger one",
+            1e3 * place.diameter, 1e3 * place.pattern.diameter));
     if (!(place.diameter > place.crimped_diameter))
-        throw DeckError(fmt::format("deployment.diameter: {:.4g} mm does not open a stent that is crimped to {:.4g} mm", 1e3 * place.diameter, 1e3 * place.crimped_diameter));
+        throw DeckError(fmt::format("deployment.diameter: {:.4g} mm does not open a stent that is crimped to {:.4g} mm",
+                                    1e3 * place.diameter, 1e3 * place.crimped_diameter));
     if (place.crimped_diameter > place.pattern.diameter)
-        throw DeckError(fmt::format("deployment.crimped_diameter: {:.4g} mm is more than the {:.4g} mm at which the stent was cut: crimping makes it smaller",
-                                    1e3 * place.crimped_diameter, 1e3 * place.pattern.diameter));
+        throw DeckError(
+            fmt::format("deployment.crimped_diameter: {:.4g} mm is more than the {:.4g} mm at which the stent was cut: "
+                        "crimping makes it smaller",
+                        1e3 * place.crimped_diameter, 1e3 * place.pattern.diameter));
     if (!(place.crimped_diameter > 3 * place.pattern.strut_thickness))
-        throw DeckError(fmt::format("deployment.crimped_diameter: {:.4g} mm leaves no room inside struts of {:.3g} mm", 1e3 * place.crimped_diameter,
-                                    1e3 * place.pattern.strut_thickness));
+        throw DeckError(fmt::format("deployment.crimped_diameter: {:.4g} mm leaves no room inside struts of {:.3g} mm",
+                                    1e3 * place.crimped_diameter, 1e3 * place.pattern.strut_thickness));
     if (deployment.predilation && !(*deployment.predilation > place.crimped_diameter))
-        throw DeckError(fmt::format("deployment.predilation: a balloon of {:.4g} mm does not make room for the crimped stent of {:.4g} mm",
-                                    1e3 * *deployment.predilation, 1e3 * place.crimped_diameter));
+        throw DeckError(fmt::format(
+            "deployment.predilation: a balloon of {:.4g} mm does not make room for the crimped stent of {:.4g} mm",
+            1e3 * *deployment.predilation, 1e3 * place.crimped_diameter));
 }
 
 /// The ends of a stent are expanded with it: between them and an opening there must be vessel.
 void expect_room_before_openings(const StentPlace& place, const Centreline& line, const std::string& inlet) {
     const double margin = place.diameter;
     const auto refuse = [&](const std::string& name, double left) {
-        throw GeometryError(fmt::format("The stent of {:.4g} mm with its middle at {:.4g} mm {} opening {}: leave {:.3g} mm of vessel at least. The vessel along "
-                                        "that way is {:.4g} mm long; move the stent, take a shorter one, or put extensions on the openings.",
-                                        1e3 * place.pattern.length, 1e3 * place.arc, left < 0 ? "reaches past" : fmt::format("ends {:.3g} mm from", 1e3 * left), name,
-                                        1e3 * margin, 1e3 * line.length()));
+        throw GeometryError(fmt::format(
+            "The stent of {:.4g} mm with its middle at {:.4g} mm {} opening {}: leave {:.3g} mm of vessel at least. "
+            "The vessel along "
+            "that way is {:.4g} mm long; move the stent, take a shorter one, or put extensions on the openings.",
+            1e3 * place.pattern.length, 1e3 * place.arc,
+            left < 0 ? "reaches past" : fmt::format("ends {:.3g} mm from", 1e3 * left), name, 1e3 * margin,
+            1e3 * line.length()));
     };
     if (place.start_arc() < margin) refuse(inlet, place.start_arc());
     if (const double left = line.length() - place.end_arc(); left < margin) refuse(line.outlet, left);
@@ -101,9 +118,11 @@ void expect_inside(const StentPlace& place, const Vessel& vessel) {
     for (int k = 0; k <= places; ++k) {
         const Vec3 x = place.axis.place({0, 0, place.pattern.length * (double(k) / places - 0.5)});
         if (const double out = distance.value(x); out >= 0)
-            throw GeometryError(fmt::format("The stent lies outside of the vessel: its axis is {:.3g} mm past the wall at ({:.4g}, {:.4g}, {:.4g}) mm. Change "
-                                            "stent.placement.",
-                                            1e3 * out, 1e3 * x.x, 1e3 * x.y, 1e3 * x.z));
+            throw GeometryError(
+                fmt::format("The stent lies outside of the vessel: its axis is {:.3g} mm past the wall at ({:.4g}, "
+                            "{:.4g}, {:.4g}) mm. Change "
+                            "stent.placement.",
+                            1e3 * out, 1e3 * x.x, 1e3 * x.y, 1e3 * x.z));
     }
 }
 
@@ -113,13 +132,17 @@ void expect_passage(const StentPlace& place, const Centreline& line, const deck:
         if (p.arc > place.end_arc()) return;
         if (2 * p.radius > place.crimped_diameter) continue;
         if (p.arc < place.start_arc())
-            throw GeometryError(fmt::format("The stent, crimped to {:.3g} mm, is too wide to get there: {:.4g} mm from the inlet the lumen is {:.3g} mm wide. Crimp it "
-                                            "further (deployment.crimped_diameter) or take a smaller one.",
-                                            1e3 * place.crimped_diameter, 1e3 * p.arc, 2e3 * p.radius));
+            throw GeometryError(
+                fmt::format("The stent, crimped to {:.3g} mm, is too wide to get there: {:.4g} mm from the inlet the "
+                            "lumen is {:.3g} mm wide. Crimp it "
+                            "further (deployment.crimped_diameter) or take a smaller one.",
+                            1e3 * place.crimped_diameter, 1e3 * p.arc, 2e3 * p.radius));
         if (!deployment.predilation)
-            throw GeometryError(fmt::format("The lesion is {:.3g} mm wide, too narrow for the stent crimped to {:.3g} mm. Let a balloon open it before: "
-                                            "deployment.predilation: \"{:.1f} mm\", or crimp the stent further (deployment.crimped_diameter).",
-                                            1e3 * place.narrowest, 1e3 * place.crimped_diameter, 1e3 * predilation_for(place.crimped_diameter)));
+            throw GeometryError(fmt::format(
+                "The lesion is {:.3g} mm wide, too narrow for the stent crimped to {:.3g} mm. Let a balloon open it "
+                "before: "
+                "deployment.predilation: \"{:.1f} mm\", or crimp the stent further (deployment.crimped_diameter).",
+                1e3 * place.narrowest, 1e3 * place.crimped_diameter, 1e3 * predilation_for(place.crimped_diameter)));
     }
 }
 
@@ -148,9 +171,19 @@ StentPlace place_stent(const deck::Case& config, const Vessel& vessel) {
     const VesselAlong& along = vessel.along.value();
     MadeStent made = make_stent(stent);
     if (stent.surface && config.deployment.mode == deck::DeploymentMode::geometric)
-        throw DeckError("deployment.mode: geometric opens the struts of a design or a pattern; how those of stent.surface move only mechanics can say: balloon or radial_load");
-    StentPlace place{.pattern = std::move(made.pattern), .form = std::move(made.form), .diameter = 0, .crimped_diameter = 0, .opened_length = 0, .line = 0, .arc = 0, .axis = {},
-                     .reference_diameter = 0, .narrowest = Bounds::infinity};
+        throw DeckError(
+            "deployment.mode: geometric opens the struts of a design or a pattern; how those of stent.surface move "
+            "only mechanics can say: balloon or radial_load");
+    StentPlace place{.pattern = std::move(made.pattern),
+                     .form = std::move(made.form),
+                     .diameter = 0,
+                     .crimped_diameter = 0,
+                     .opened_length = 0,
+                     .line = 0,
+                     .arc = 0,
+                     .axis = {},
+                     .reference_diameter = 0,
+                     .narrowest = Bounds::infinity};
     place.diameter = config.deployment.diameter.value_or(place.pattern.nominal_diameter);
     place.crimped_diameter = config.deployment.crimped_diameter.value_or(place.pattern.crimped_diameter);
     expect_diameters(place, config.deployment);
@@ -165,13 +198,17 @@ StentPlace place_stent(const deck::Case& config, const Vessel& vessel) {
     } else {
         const std::vector<Vec3> smooth = smoothed_line(line, 0.5 * place.diameter);
         double before = 0;   // the smoothed line is a little shorter
-        for (std::size_t k = 1; k < smooth.size() && line.points[k].arc <= middle.arc; ++k) before += norm(smooth[k] - smooth[k - 1]);
-        place.axis = StentAxis(smooth, before, stent.placement ? stent.placement->rotation : 0, place.pattern.length, 0.5 * place.diameter);
+        for (std::size_t k = 1; k < smooth.size() && line.points[k].arc <= middle.arc; ++k)
+            before += norm(smooth[k] - smooth[k - 1]);
+        place.axis = StentAxis(smooth, before, stent.placement ? stent.placement->rotation : 0, place.pattern.length,
+                               0.5 * place.diameter);
     }
     for (const CentrelinePoint& p : line.points)
-        if (p.arc >= place.start_arc() && p.arc <= place.end_arc()) place.narrowest = std::min(place.narrowest, 2 * p.radius);
+        if (p.arc >= place.start_arc() && p.arc <= place.end_arc())
+            place.narrowest = std::min(place.narrowest, 2 * p.radius);
     const std::vector<double>& healthy = along.assessment.healthy_diameter[middle.line];
-    place.reference_diameter = 0.5 * (value_at(line, healthy, place.start_arc()) + value_at(line, healthy, place.end_arc()));
+    place.reference_diameter =
+        0.5 * (value_at(line, healthy, place.start_arc()) + value_at(line, healthy, place.end_arc()));
     expect_inside(place, vessel);
     if (config.deployment.mode == deck::DeploymentMode::geometric) return place;
     if (!stent.surface) at_diameter(place.pattern, place.crimped_diameter);   // its struts must have room

@@ -12,16 +12,16 @@
 namespace patency {
 
 struct StentPlace {
-    StentPattern pattern;      ///< as it was made (MadeStent)
-    StentForm form;            ///< in the stent's own frame
-    double diameter;           ///< that it is opened to, outside [m]
-    double crimped_diameter;   ///< [m]
-    double opened_length;      ///< by kinematics (at_diameter), of a surface as long as it is [m]
-    std::size_t line;          ///< the centreline that it lies along, in VesselAlong::lines
-    double arc;                ///< of its middle along that line, from the inlet [m]
-    StentAxis axis;            ///< through it; angle and place along as in the stent's own frame
-    double reference_diameter; ///< of the healthy lumen, mean of those at its two ends [m]
-    double narrowest;          ///< the lumen before, within its length: the largest sphere that passes [m]
+    StentPattern pattern;        ///< as it was made (MadeStent)
+    StentForm form;              ///< in the stent's own frame
+    double diameter;             ///< that it is opened to, outside [m]
+    double crimped_diameter;     ///< [m]
+    double opened_length;        ///< by kinematics (at_diameter), of a surface as long as it is [m]
+    std::size_t line;            ///< the centreline that it lies along, in VesselAlong::lines
+    double arc;                  ///< of its middle along that line, from the inlet [m]
+    StentAxis axis;              ///< through it; angle and place along as in the stent's own frame
+    double reference_diameter;   ///< of the healthy lumen, mean of those at its two ends [m]
+    double narrowest;            ///< the lumen before, within its length: the largest sphere that passes [m]
 
     double start_arc() const { return arc - pattern.length / 2; }   ///< [m]
     double end_arc() const { return arc + pattern.length / 2; }     ///< [m]

@@ -26,7 +26,8 @@ Vessel check_vessel(Surface surface, std::string_view inlet) {
 
 Vessel check_vessel(const Network& network, std::string_view inlet, double resolution) {
     const std::vector<Opening> named = openings_of(network, 0);   // in the order of their face ids, from 2 on
-    Vessel vessel = check_vessel(make_network_surface(network, resolution > 0 ? resolution : 0.5 * narrowest_diameter(network)));
+    Vessel vessel =
+        check_vessel(make_network_surface(network, resolution > 0 ? resolution : 0.5 * narrowest_diameter(network)));
     for (SurfaceOpening& o : vessel.openings)
         if (o.face_id) o.opening.name = named.at(std::size_t(*o.face_id) - 2).name;
     std::stable_partition(vessel.openings.begin(), vessel.openings.end(),

@@ -42,12 +42,15 @@ VesselCut::VesselCut(const Scene& scene) : space_(scene.vessel->checked.surface.
             if (p.arc < next && k != branch.last) continue;
             next = p.arc + spacing_at(scene, p.place) * (1 - 1e-9);
             const Vec3 sideways = cross(plane, p.tangent);
-            if (norm(sideways) > 0.1) side = normalized(sideways);            // else the branch leaves the plane: keep the last
-            else if (norm(side) == 0) side = normalized(cross(Vec3{p.tangent.y, p.tangent.z, p.tangent.x}, p.tangent));
+            if (norm(sideways) > 0.1)
+                side = normalized(sideways);   // else the branch leaves the plane: keep the last
+            else if (norm(side) == 0)
+                side = normalized(cross(Vec3{p.tangent.y, p.tangent.z, p.tangent.x}, p.tangent));
             const double left = way_to_wall(scene.lumen.distance, p.place, -side, widest * p.radius),
                          right = way_to_wall(scene.lumen.distance, p.place, side, widest * p.radius);
             const auto base = std::uint32_t(places_.size());
-            for (int n = 0; n < across; ++n) places_.push_back(p.place + (n * (left + right) / (across - 1) - left) * side);
+            for (int n = 0; n < across; ++n)
+                places_.push_back(p.place + (n * (left + right) / (across - 1) - left) * side);
             for (std::uint32_t n = 0; !is_first_row && n + 1 < across; ++n) {
                 const std::uint32_t a = base - across + n, b = base + n;
                 triangles_.push_back({a, a + 1, b}), triangles_.push_back({a + 1, b + 1, b});
@@ -71,7 +74,8 @@ void VesselCut::sample(const Scene& scene) {
 
 void VesselCut::write(const std::filesystem::path& path) const {
     PolyData data{.points = places_, .triangles = triangles_, .space = space_};
-    PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"}, swing{"speed_deviation", "m/s"}, seen{"is_resolved", "1"};
+    PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"}, swing{"speed_deviation", "m/s"},
+        seen{"is_resolved", "1"};
     for (std::size_t k = 0; k < places_.size(); ++k) {
         const Vec3 v = velocity_[k] / instants_;
         const double p = pressure_[k] / instants_;

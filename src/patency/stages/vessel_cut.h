@@ -28,7 +28,7 @@ public:
 private:
     std::vector<Vec3> places_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    std::vector<Vec3> velocity_;            // sums
+    std::vector<Vec3> velocity_;   // sums
     std::vector<double> pressure_, squares_;
     double instants_ = 0;
     std::string space_;

@@ -34,7 +34,8 @@ std::vector<VesselStation> make_stations(const Vessel& vessel, const LocalLength
             const CentrelinePoint& point = along.lines.point(branch, k);
             const CrossSection& section = along.sections[branch.line][k];
             if (!section.is_closed || !section.holds_place || section.is_shared || point.arc < next) continue;
-            stations.push_back({b, branch.line, point.arc, {section.place, section.normal, point.radius}, section.area});
+            stations.push_back(
+                {b, branch.line, point.arc, {section.place, section.normal, point.radius}, section.area});
             next = point.arc + std::max(station_distance, 2 * spacing(point.place)) * (1 - 1e-9);
         }
     }
@@ -55,12 +56,16 @@ LumenWall make_lumen_wall(const Vessel& vessel) {
 }
 
 VesselRecorder::VesselRecorder(const Scene& scene)
-    : stations_(make_stations(*scene.vessel, [&](const Vec3& x) { return spacing_at(scene, x); })), wall_(make_lumen_wall(*scene.vessel)), cut_(scene) {
+    : stations_(make_stations(*scene.vessel, [&](const Vec3& x) { return spacing_at(scene, x); })),
+      wall_(make_lumen_wall(*scene.vessel)),
+      cut_(scene) {
     const WallHint hint = wall_hint(scene);
     grids_.resize(stations_.size());
     for_each_task(stations_.size(), [&](std::size_t k) { grids_[k] = make_section_grid(stations_[k].plane, hint); });
     // A plane that runs into another vessel measures both; so do squares that leak over the edge between two.
-    const auto is_own = [&](std::size_t k) { return grids_[k].closed && std::abs(grids_[k].total_area() / stations_[k].area - 1) < area_tolerance; };
+    const auto is_own = [&](std::size_t k) {
+        return grids_[k].closed && std::abs(grids_[k].total_area() / stations_[k].area - 1) < area_tolerance;
+    };
     for (std::size_t k = stations_.size(); k-- > 0;)
         if (!is_own(k)) {
             grids_.erase(grids_.begin() + std::ptrdiff_t(k));
@@ -107,7 +112,9 @@ void VesselRecorder::join_blocks() {
         if (to.size() < from.size()) to.resize(from.size(), 0.0);
         for (std::size_t n = 0; n < from.size(); ++n) to[n] += from[n];
     };
-    for (const State& block : finished_) add(sum.flows, block.flows), add(sum.shear, block.shear), add(sum.pressure, block.pressure), add(sum.cut, block.cut);
+    for (const State& block : finished_)
+        add(sum.flows, block.flows), add(sum.shear, block.shear), add(sum.pressure, block.pressure),
+            add(sum.cut, block.cut);
     restore(sum);
 }
 

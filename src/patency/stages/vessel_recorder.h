@@ -17,7 +17,7 @@ struct VesselStation {
     std::size_t branch, line;   ///< as the vessel's; `line` is the branch's own
     double arc;                 ///< along the line from the inlet [m]
     SectionPlane plane;
-    double area;                ///< of the surface's section [m^2]
+    double area;   ///< of the surface's section [m^2]
 };
 
 /// The part of a vessel's surface that is wall: no caps.
@@ -41,10 +41,10 @@ public:
 
     std::size_t instants() const { return flows_.instants(); }   ///< since the last block ended
     const std::vector<VesselStation>& stations() const { return stations_; }
-    const SectionFlowMeans& flows() const { return flows_; }    ///< as the stations; pressures as the deck counts them
+    const SectionFlowMeans& flows() const { return flows_; }   ///< as the stations; pressures as the deck counts them
     const LumenWall& wall() const { return wall_; }
-    const WallShearMeans& shear() const { return shear_; }      ///< as the wall's points; each instant counts 1 s
-    std::vector<double> wall_pressure() const;                  ///< mean, as the deck counts it [Pa]
+    const WallShearMeans& shear() const { return shear_; }   ///< as the wall's points; each instant counts 1 s
+    std::vector<double> wall_pressure() const;               ///< mean, as the deck counts it [Pa]
     const VesselCut& cut() const { return cut_; }
 
     /// For checkpoints.

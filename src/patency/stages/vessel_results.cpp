@@ -16,7 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double distance_to_reading = 15e-3;   // m behind a lesion's end: in the middle of 10 to 20 mm (Norgaard et al. 2019)
+constexpr double distance_to_reading =
+    15e-3;   // m behind a lesion's end: in the middle of 10 to 20 mm (Norgaard et al. 2019)
 constexpr double mm = 1e3;
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -26,8 +27,8 @@ bool passes(const Branch& branch, std::size_t line) {
 }
 
 /// The stations that a line passes, from the inlet on.
-std::vector<const StationFlow*> stations_along(const VesselAlong& along, const VesselRecorder& recorder, const VesselFlow& flow,
-                                               std::size_t line) {
+std::vector<const StationFlow*> stations_along(const VesselAlong& along, const VesselRecorder& recorder,
+                                               const VesselFlow& flow, std::size_t line) {
     std::vector<const StationFlow*> found;
     for (const StationFlow& s : flow.stations)
         if (passes(along.lines.branches[recorder.stations()[s.station].branch], line)) found.push_back(&s);
@@ -38,9 +39,11 @@ std::vector<const StationFlow*> stations_along(const VesselAlong& along, const V
 
 /// A number of the stations at an arc, linear between them, the ends' beyond.
 template <class Value>
-double at_arc(const std::vector<const StationFlow*>& stations, const VesselRecorder& recorder, double arc, Value value) {
+double at_arc(const std::vector<const StationFlow*>& stations, const VesselRecorder& recorder, double arc,
+              Value value) {
     const auto arc_of = [&](const StationFlow* s) { return recorder.stations()[s->station].arc; };
-    const auto after = std::find_if(stations.begin(), stations.end(), [&](const StationFlow* s) { return arc_of(s) >= arc; });
+    const auto after =
+        std::find_if(stations.begin(), stations.end(), [&](const StationFlow* s) { return arc_of(s) >= arc; });
     if (after == stations.begin()) return value(**after);
     if (after == stations.end()) return value(*stations.back());
     const StationFlow &a = **std::prev(after), &b = **after;
@@ -54,14 +57,23 @@ double pressure_at(const std::vector<const StationFlow*>& stations, const Vessel
 
 bool is_finite(const SectionFlow& s) { return std::isfinite(s.flow + s.pressure + s.mean_velocity + s.peak_velocity); }
 
-std::optional<LesionFlow> evaluate_lesion(const Scene& scene, const VesselRecorder& recorder, const VesselFlow& flow, std::size_t number,
-                                          double lowest_outlet) {
+std::optional<LesionFlow> evaluate_lesion(const Scene& scene, const VesselRecorder& recorder, const VesselFlow& flow,
+                                          std::size_t number, double lowest_outlet) {
     const VesselAlong& along = *scene.vessel->along;
     const Lesion& lesion = along.assessment.lesions[number];
     const auto stations = stations_along(along, recorder, flow, lesion.line);
     if (stations.size() < 2) return {};
-    LesionFlow result{.number = number, .flow = at_arc(stations, recorder, lesion.throat_arc, [](const StationFlow& s) { return s.flow.flow; }),
-                      .drop = 0, .read_arc = 0, .across = lesion.minimum_diameter / spacing_at(scene, point_at(along.lines.lines[lesion.line], lesion.throat_arc).place), .velocity_before = 0, .velocity_behind = 0, .gauge_ratio = {}, .ffr = {}};
+    LesionFlow result{
+        .number = number,
+        .flow = at_arc(stations, recorder, lesion.throat_arc, [](const StationFlow& s) { return s.flow.flow; }),
+        .drop = 0,
+        .read_arc = 0,
+        .across = lesion.minimum_diameter /
+                  spacing_at(scene, point_at(along.lines.lines[lesion.line], lesion.throat_arc).place),
+        .velocity_before = 0,
+        .velocity_behind = 0,
+        .gauge_ratio = {},
+        .ffr = {}};
     result.read_arc = std::min(lesion.end_arc + distance_to_reading, recorder.stations()[stations.back()->station].arc);
     const double read = pressure_at(stations, recorder, result.read_arc);
     result.drop = pressure_at(stations, recorder, lesion.start_arc) - read;
@@ -111,7 +123,9 @@ Json lesion_summary(const Scene& scene, const LesionFlow& l) {
 
 Json branch_summary(const Scene& scene, const VesselRecorder& recorder, const VesselFlow& flow, std::size_t b) {
     const Branch& branch = scene.vessel->along->lines.branches[b];
-    Json json{{"name", branch.name}, {"length_mm", mm * (scene.vessel->along->lines.end_arc(branch) - scene.vessel->along->lines.start_arc(branch))}};
+    Json json{{"name", branch.name},
+              {"length_mm",
+               mm * (scene.vessel->along->lines.end_arc(branch) - scene.vessel->along->lines.start_arc(branch))}};
     const StationFlow *first = nullptr, *last = nullptr;
     double sum = 0, count = 0, least_across = INFINITY;
     for (const StationFlow& s : flow.stations) {
@@ -132,18 +146,35 @@ Json branch_summary(const Scene& scene, const VesselRecorder& recorder, const Ve
     return json;
 }
 
-const std::vector<std::string> flow_columns{"x_m",           "y_m",
-                                            "z_m",           "area_m2",
-                                            "flow_m3_per_s", "pressure_pa",
-                                            "mean_velocity_m_per_s", "peak_velocity_m_per_s",
-                                            "flow_deviation_m3_per_s", "pressure_deviation_pa",
-                                            "particles_across", "estimated_pressure_pa"};
+const std::vector<std::string> flow_columns{"x_m",
+                                            "y_m",
+                                            "z_m",
+                                            "area_m2",
+                                            "flow_m3_per_s",
+                                            "pressure_pa",
+                                            "mean_velocity_m_per_s",
+                                            "peak_velocity_m_per_s",
+                                            "flow_deviation_m3_per_s",
+                                            "pressure_deviation_pa",
+                                            "particles_across",
+                                            "estimated_pressure_pa"};
 
 std::vector<double> row_of(const Scene& scene, const VesselRecorder& recorder, const StationFlow& s, double second) {
     const VesselStation& station = recorder.stations()[s.station];
     const Vec3& x = station.plane.centre;
-    std::vector<double> row{station.arc, second, x.x, x.y, x.z, s.flow.area, s.flow.flow, s.flow.pressure, s.flow.mean_velocity,
-                            s.flow.peak_velocity, s.deviation.flow, s.deviation.pressure, s.across,
+    std::vector<double> row{station.arc,
+                            second,
+                            x.x,
+                            x.y,
+                            x.z,
+                            s.flow.area,
+                            s.flow.flow,
+                            s.flow.pressure,
+                            s.flow.mean_velocity,
+                            s.flow.peak_velocity,
+                            s.deviation.flow,
+                            s.deviation.pressure,
+                            s.across,
                             estimated_pressure(*scene.estimate, station.branch, station.arc) + scene.datum};
     if (s.ffr) row.push_back(*s.ffr);
     return row;
@@ -160,10 +191,12 @@ CsvWriter table(const OutputFolder& folder, const char* name, const char* second
 void write_wall(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder, double level) {
     const Surface& surface = recorder.wall().surface;
     PolyData data{.points = surface.points, .triangles = surface.triangles, .space = surface.space};
-    PointArray pressure{"pressure", "Pa"}, shear{"wall_shear_stress", "Pa", 3}, tawss{"tawss", "Pa"}, osi{"osi", "1"}, rrt{"rrt", "1/Pa"};
+    PointArray pressure{"pressure", "Pa"}, shear{"wall_shear_stress", "Pa", 3}, tawss{"tawss", "Pa"}, osi{"osi", "1"},
+        rrt{"rrt", "1/Pa"};
     PointArray seen{"is_resolved", "1"};
     const auto mean = recorder.shear().mean();
-    const auto tawss_values = recorder.shear().tawss(), osi_values = recorder.shear().osi(), rrt_values = recorder.shear().rrt();
+    const auto tawss_values = recorder.shear().tawss(), osi_values = recorder.shear().osi(),
+               rrt_values = recorder.shear().rrt();
     const auto pressures = recorder.wall_pressure();
     for (std::size_t k = 0; k < mean.size(); ++k) {
         // Where no blood was near there is no value; files have zeros there and say so.
@@ -179,17 +212,19 @@ void write_wall(const OutputFolder& folder, const Scene& scene, const VesselReco
     data.arrays = {pressure, shear, tawss, osi, rrt, seen};
     if (const auto& aortic = scene.config.aorta.pressure) {
         PointArray ffr{"ffr", "1"};
-        for (std::size_t k = 0; k < mean.size(); ++k) ffr.values.push_back(seen.values[k] != 0 ? (pressure.values[k] + level) / *aortic : 0);
+        for (std::size_t k = 0; k < mean.size(); ++k)
+            ffr.values.push_back(seen.values[k] != 0 ? (pressure.values[k] + level) / *aortic : 0);
         data.arrays.push_back(ffr);
     }
     write_polydata(folder.file("wall.vtp"), data);
 }
 
-void write_centreline(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder, const VesselFlow& flow) {
+void write_centreline(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder,
+                      const VesselFlow& flow) {
     const VesselAlong& along = *scene.vessel->along;
     PolyData data{.space = scene.vessel->checked.surface.space};
-    PointArray arc{"abscissas", "mm"}, radius{"maximum_inscribed_sphere_radius", "mm"}, pressure{"pressure", "Pa"}, rate{"flow", "m^3/s"},
-        mean{"mean_velocity", "m/s"}, peak{"peak_velocity", "m/s"}, ffr{"ffr", "1"};
+    PointArray arc{"abscissas", "mm"}, radius{"maximum_inscribed_sphere_radius", "mm"}, pressure{"pressure", "Pa"},
+        rate{"flow", "m^3/s"}, mean{"mean_velocity", "m/s"}, peak{"peak_velocity", "m/s"}, ffr{"ffr", "1"};
     IntegerArray branch{"branch_id"};
     for (std::size_t line = 0; line < along.lines.lines.size(); ++line) {
         std::vector<std::uint32_t>& cell = data.lines.emplace_back();
@@ -220,8 +255,12 @@ void write_streamlines(const OutputFolder& folder, const Scene& scene, const Ves
     const SectionGrid seeds = make_section_grid(inlet, hint, seeds_across_radius);
     double length = 0;
     for (const Centreline& line : scene.vessel->along->lines.lines) length = std::max(length, line.length());
-    const StreamlineRule rule{.step = [&](const Vec3& x) { return spacing_at(scene, x); }, .longest = 2 * length, .slowest = 1e-3 * scene.numerics.reference_speed, .reach = sampling_reach(scene),
-                              .is_inside = [&](const Vec3& x) { return hint.distance(x) < 0 && opening_beyond(scene.lumen, x) < 0; }};
+    const StreamlineRule rule{
+        .step = [&](const Vec3& x) { return spacing_at(scene, x); },
+        .longest = 2 * length,
+        .slowest = 1e-3 * scene.numerics.reference_speed,
+        .reach = sampling_reach(scene),
+        .is_inside = [&](const Vec3& x) { return hint.distance(x) < 0 && opening_beyond(scene.lumen, x) < 0; }};
     PolyData data{.space = scene.vessel->checked.surface.space};
     PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"};
     for (const Streamline& line : trace_streamlines(scene.fluid, *scene.frame, seeds.place, rule, hint)) {
@@ -240,14 +279,19 @@ void write_streamlines(const OutputFolder& folder, const Scene& scene, const Ves
 
 }   // namespace
 
-VesselFlow evaluate_vessel(const Scene& scene, const VesselRecorder& recorder, double inlet_pressure, double lowest_outlet) {
+VesselFlow evaluate_vessel(const Scene& scene, const VesselRecorder& recorder, double inlet_pressure,
+                           double lowest_outlet) {
     VesselFlow result;
     const auto& aortic = scene.config.aorta.pressure;
     if (aortic) result.level = *aortic - inlet_pressure;
     const auto means = recorder.flows().mean(), deviations = recorder.flows().deviation();
     for (std::size_t k = 0; k < means.size(); ++k) {
         if (!is_finite(means[k])) continue;
-        StationFlow s{k, means[k], deviations[k], 2 * recorder.stations()[k].plane.radius / spacing_at(scene, recorder.stations()[k].plane.centre), {}};
+        StationFlow s{k,
+                      means[k],
+                      deviations[k],
+                      2 * recorder.stations()[k].plane.radius / spacing_at(scene, recorder.stations()[k].plane.centre),
+                      {}};
         if (aortic) s.ffr = (s.flow.pressure + result.level) / *aortic;
         result.stations.push_back(s);
     }
@@ -266,7 +310,9 @@ void add_vessel_summary(Json& summary, const Scene& scene, const VesselRecorder&
     for (const LesionFlow& l : flow.lesions) lesions.push_back(lesion_summary(scene, l));
     summary["gauge_pressure_ratio"] = flow.lesions.empty() ? Json(nullptr) : or_null(flow.lesions.front().gauge_ratio);
     summary["ffr"] = {{"lesion", or_null(flow.worst_ffr)}};
-    if (!flow.worst_ffr) summary["ffr"]["reason"] = scene.config.aorta.pressure ? "no lesion was found" : "the deck gives no aortic pressure";
+    if (!flow.worst_ffr)
+        summary["ffr"]["reason"] =
+            scene.config.aorta.pressure ? "no lesion was found" : "the deck gives no aortic pressure";
     if (scene.config.aorta.pressure) {
         summary["aortic_pressure_pa"] = *scene.config.aorta.pressure;
         summary["pressure_level_pa"] = flow.level;   // what FFR adds to pressures
@@ -276,7 +322,8 @@ void add_vessel_summary(Json& summary, const Scene& scene, const VesselRecorder&
     summary["instants_averaged"] = recorder.instants();
 }
 
-void write_vessel_files(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder, const VesselFlow& flow) {
+void write_vessel_files(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder,
+                        const VesselFlow& flow) {
     const VesselAlong& along = *scene.vessel->along;
     const bool has_ffr = scene.config.aorta.pressure.has_value();
     CsvWriter sections = table(folder, "sections.csv", "branch", has_ffr);

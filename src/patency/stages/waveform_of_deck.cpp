@@ -21,15 +21,18 @@ const Unit& unit_of_column(const std::string& name, Dimension dimension, const s
         const Unit* unit = find_unit(spelling);
         if (unit && unit->dimension == dimension) return *unit;
     }
-    throw DeckError(fmt::format("{}: column '{}' must end in a unit of {}, as in {}", file, name, dimension_name(dimension),
+    throw DeckError(fmt::format("{}: column '{}' must end in a unit of {}, as in {}", file, name,
+                                dimension_name(dimension),
                                 dimension == Dimension::time ? "time_s" : "flow_mL_per_min or pressure_mmHg"));
 }
 
-}  // namespace
+}   // namespace
 
-Waveform make_signal_waveform(const deck::Waveform& said, const deck::Case& config, Dimension dimension, double factor) {
+Waveform make_signal_waveform(const deck::Waveform& said, const deck::Case& config, Dimension dimension,
+                              double factor) {
     if (said.fourier) {
-        FourierSeries series{said.fourier->mean * factor, said.fourier->cosines, said.fourier->sines, said.fourier->period};
+        FourierSeries series{said.fourier->mean * factor, said.fourier->cosines, said.fourier->sines,
+                             said.fourier->period};
         for (double& a : series.cosines) a *= factor;
         for (double& a : series.sines) a *= factor;
         return make_waveform(std::move(series));
@@ -37,7 +40,8 @@ Waveform make_signal_waveform(const deck::Waveform& said, const deck::Case& conf
     std::vector<double> times = said.times, values = said.values;
     if (said.file) {
         const CsvTable table = read_csv(*said.file);
-        if (table.columns.size() < 2) throw DeckError(fmt::format("{}: a time column and a value column are needed", said.file->string()));
+        if (table.columns.size() < 2)
+            throw DeckError(fmt::format("{}: a time column and a value column are needed", said.file->string()));
         const Unit& second = unit_of_column(table.names[0], Dimension::time, said.file->string());
         const Unit& unit = unit_of_column(table.names[1], dimension, said.file->string());
         times = table.columns[0];
@@ -50,4 +54,4 @@ Waveform make_signal_waveform(const deck::Waveform& said, const deck::Case& conf
     return make_waveform(times, values, Interpolation::linear, period ? Repeat::periodic : Repeat::once, period);
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -13,4 +13,4 @@ namespace patency {
 /// second must have `dimension`. Throws FileError, DeckError.
 Waveform make_signal_waveform(const deck::Waveform& said, const deck::Case& config, Dimension dimension, double factor);
 
-}  // namespace patency
+}   // namespace patency

@@ -21,8 +21,8 @@ namespace patency {
 namespace {
 
 struct Setup {
-    int across;                   // particles over the diameter
-    double length;                // in diameters
+    int across;      // particles over the diameter
+    double length;   // in diameters
     deck::Precision precision;
     LoopKind loop = LoopKind::packed;
 };
@@ -61,7 +61,8 @@ std::unique_ptr<Scene> make_pipe(const Setup& setup) {
     auto scene = build_frame(make_case(setup));
     scene->numerics.loop = setup.loop;
     const double dp = scene->numerics.spacing, radius = 0.5 * diameter, length = setup.length * diameter;
-    const int layers = int(std::lround(length / dp)), buffer = int(buffer_spacings), beyond = buffer + 3;   // + the kernel's support
+    const int layers = int(std::lround(length / dp)), buffer = int(buffer_spacings),
+              beyond = buffer + 3;   // + the kernel's support
     const double wall_end = radius + 3.2 * dp;
     struct Point {
         Vec3 x;
@@ -76,9 +77,15 @@ std::unique_ptr<Scene> make_pipe(const Setup& setup) {
             const double turn = 2.399963 * (i + beyond) + 1.7 * k;   // golden angle: layers and rings do not line up
             for (int a = 0; a < count; ++a) {
                 const double angle = turn + 2 * std::numbers::pi * a / count;
-                const Point p{{x, r * std::cos(angle), r * std::sin(angle)}, r - radius, i < 0 ? 1 : i >= layers ? 2 : 0};
-                if (r > radius) wall.push_back(p);
-                else if (i >= -buffer && i < layers + buffer) fluid.push_back(p);
+                const Point p{{x, r * std::cos(angle), r * std::sin(angle)},
+                              r - radius,
+                              i < 0         ? 1
+                              : i >= layers ? 2
+                                            : 0};
+                if (r > radius)
+                    wall.push_back(p);
+                else if (i >= -buffer && i < layers + buffer)
+                    fluid.push_back(p);
             }
         }
     const double volume = dp * dp * dp;
@@ -177,59 +184,92 @@ BenchResult bench_against_reference(const std::string& name, Setup setup, const 
     Runner slow = make_runner(setup, request.threads, request);
     measure_by_turns(packed, slow);
     const Measured &fast = packed.measured, &reference = slow.measured;
-    return {name, fast.particles, request.threads, fast.per_cpu_s(), rate_unit, reference.per_cpu_s(),
-            fast.per_cpu_s() / reference.per_cpu_s(), answer_error(*packed.scene, *slow.scene)};
+    return {name,
+            fast.particles,
+            request.threads,
+            fast.per_cpu_s(),
+            rate_unit,
+            reference.per_cpu_s(),
+            fast.per_cpu_s() / reference.per_cpu_s(),
+            answer_error(*packed.scene, *slow.scene)};
 }
 
 BenchResult bench_two_threads(const std::string& name, const Setup& setup, const BenchRequest& request) {
     Runner alone = make_runner(setup, 1, request), together = make_runner(setup, 2, request);
     measure_by_turns(alone, together);
     const Measured &one = alone.measured, &two = together.measured;
-    return {name, two.particles, 2, two.per_s(), "particle-steps per second", one.per_s(), two.per_s() / one.per_s(),
+    return {name,
+            two.particles,
+            2,
+            two.per_s(),
+            "particle-steps per second",
+            one.per_s(),
+            two.per_s() / one.per_s(),
             answer_error(*together.scene, *alone.scene)};
 }
 
 /// Of CPU time per particle-step, large over small: 1.1 is 10 % more.
 BenchResult bench_growth(const std::string& name, const Setup& large, const Setup& small, const BenchRequest& request) {
-    Runner of_small = make_runner(small, request.threads, request), of_large = make_runner(large, request.threads, request);
+    Runner of_small = make_runner(small, request.threads, request),
+           of_large = make_runner(large, request.threads, request);
     measure_by_turns(of_small, of_large);
     const double cost = 1e9 / of_large.measured.per_cpu_s(), before = 1e9 / of_small.measured.per_cpu_s();
-    return {name, of_large.measured.particles, request.threads, cost, "CPU-ns per particle-step", before, cost / before, 0};
+    return {name, of_large.measured.particles, request.threads, cost, "CPU-ns per particle-step", before, cost / before,
+            0};
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<BenchResult> run_flow_bench(const BenchRequest& request) {
     using Bench = std::function<BenchResult(const std::string&)>;
     std::vector<std::pair<std::string, Bench>> benches;
-    for (const auto& [tail, precision] : {std::pair{"mixed", deck::Precision::mixed}, std::pair{"double", deck::Precision::double_}}) {
+    for (const auto& [tail, precision] :
+         {std::pair{"mixed", deck::Precision::mixed}, std::pair{"double", deck::Precision::double_}}) {
         const std::string end = std::string("_") + tail;
         // 7.5 diameters at D/16 are 24,000 particles; 8 at D/32 are 206,000; D/25 and D/54 make 100,000 and 1,000,000.
-        const Setup small{16, 7.5, precision}, large{32, 8, precision}, larger{25, 8, precision}, largest{54, 8, precision};
-        benches.emplace_back("pipe_d16" + end, [=, &request](const std::string& name) { return bench_against_reference(name, small, request); });
-        benches.emplace_back("pipe_d32" + end, [=, &request](const std::string& name) { return bench_against_reference(name, large, request); });
-        benches.emplace_back("two_threads" + end, [=, &request](const std::string& name) { return bench_two_threads(name, large, request); });
-        benches.emplace_back("growth" + end, [=, &request](const std::string& name) { return bench_growth(name, largest, larger, request); });
+        const Setup small{16, 7.5, precision}, large{32, 8, precision}, larger{25, 8, precision},
+            largest{54, 8, precision};
+        benches.emplace_back("pipe_d16" + end, [=, &request](const std::string& name) {
+            return bench_against_reference(name, small, request);
+        });
+        benches.emplace_back("pipe_d32" + end, [=, &request](const std::string& name) {
+            return bench_against_reference(name, large, request);
+        });
+        benches.emplace_back("two_threads" + end, [=, &request](const std::string& name) {
+            return bench_two_threads(name, large, request);
+        });
+        benches.emplace_back("growth" + end, [=, &request](const std::string& name) {
+            return bench_growth(name, largest, larger, request);
+        });
     }
     std::vector<BenchResult> results;
     for (const auto& [name, bench] : benches) {
-        const bool is_wanted = request.names.empty() || std::any_of(request.names.begin(), request.names.end(), [&name = name](const std::string& part) {
-                                   return name.find(part) != std::string::npos;
-                               });
+        const bool is_wanted = request.names.empty() || std::any_of(request.names.begin(), request.names.end(),
+                                                                    [&name = name](const std::string& part) {
+                                                                        return name.find(part) != std::string::npos;
+                                                                    });
         if (!is_wanted) continue;
         results.push_back(bench(name));
         if (request.report) request.report(results.back());
     }
-    if (results.empty()) throw UsageError("no benchmark has that name; there are pipe_d16, pipe_d32, two_threads, growth, each _mixed and _double");
+    if (results.empty())
+        throw UsageError(
+            "no benchmark has that name; there are pipe_d16, pipe_d32, two_threads, growth, each _mixed and _double");
     return results;
 }
 
 std::string format_bench(const std::vector<BenchResult>& results) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const BenchResult& r : results)
-        list.push_back({{"name", r.name}, {"particles", r.particles}, {"threads", r.threads}, {"value", r.value}, {"unit", r.unit},
-                        {"reference_value", r.reference_value}, {"ratio", r.ratio}, {"answer_error", r.answer_error}});
+        list.push_back({{"name", r.name},
+                        {"particles", r.particles},
+                        {"threads", r.threads},
+                        {"value", r.value},
+                        {"unit", r.unit},
+                        {"reference_value", r.reference_value},
+                        {"ratio", r.ratio},
+                        {"answer_error", r.answer_error}});
     return list.dump(1) + "\n";
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -16,8 +16,8 @@ struct BenchResult {
     double value = 0;
     std::string unit;
     double reference_value = 0;
-    double ratio = 0;             ///< value over reference value
-    double answer_error = 0;      ///< largest difference of velocity and of position, relative to the largest
+    double ratio = 0;          ///< value over reference value
+    double answer_error = 0;   ///< largest difference of velocity and of position, relative to the largest
 };
 
 struct BenchRequest {
@@ -36,4 +36,4 @@ std::vector<BenchResult> run_flow_bench(const BenchRequest& request);
 /// [{"name","particles","threads","value","unit","reference_value","ratio","answer_error"}]
 std::string format_bench(const std::vector<BenchResult>& results);
 
-}  // namespace patency
+}   // namespace patency

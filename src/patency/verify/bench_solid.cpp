@@ -16,9 +16,9 @@ namespace patency {
 
 namespace {
 
-constexpr int across = 58;               // 195,112 particles
-constexpr double spacing = 1e-3;         // m
-constexpr double smoothing_ratio = 1.35; // 76 neighbours in a block of this size
+constexpr int across = 58;                 // 195,112 particles
+constexpr double spacing = 1e-3;           // m
+constexpr double smoothing_ratio = 1.35;   // 76 neighbours in a block of this size
 
 /// A block that rings: a smooth wave of two percent along each axis.
 SolidSystem make_block(const SolidLaw& law, Precision precision, LoopKind loop) {
@@ -34,7 +34,8 @@ SolidSystem make_block(const SolidLaw& law, Precision precision, LoopKind loop) 
     SolidParticles& p = part->solid.particles;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Vec3 q = (2 * 3.14159265358979 / side) * p.reference[i];
-        p.position[i] = p.reference[i] + 0.02 * spacing * across / 6 * Vec3{std::sin(q.y), std::sin(q.z), std::sin(q.x)};
+        p.position[i] =
+            p.reference[i] + 0.02 * spacing * across / 6 * Vec3{std::sin(q.y), std::sin(q.z), std::sin(q.x)};
     }
     part->body = make_solid_body(part->solid, numerics);
     system.parts.push_back(std::move(part));
@@ -58,16 +59,25 @@ Measured measure(SolidSystem& system, int steps, double dt) {
     return {double(p.size()) * steps / spent, {p.position.begin(), p.position.end()}};
 }
 
-BenchResult bench_block(const std::string& name, const SolidLaw& law, Precision precision, const BenchRequest& request) {
+BenchResult bench_block(const std::string& name, const SolidLaw& law, Precision precision,
+                        const BenchRequest& request) {
     omp_set_num_threads(request.threads);
-    SolidSystem fast = make_block(law, precision, LoopKind::packed), slow = make_block(law, precision, LoopKind::reference);
+    SolidSystem fast = make_block(law, precision, LoopKind::packed),
+                slow = make_block(law, precision, LoopKind::reference);
     const double dt = stable_step(fast);
     const int steps = std::max(3, int(std::lround(20 * request.effort)));
     const Measured packed = measure(fast, steps, dt), reference = measure(slow, steps, dt);
     double error = 0;
-    for (std::size_t i = 0; i < packed.places.size(); ++i) error = std::max(error, norm(packed.places[i] - reference.places[i]) / (across * spacing));
-    return {name, std::int64_t(packed.places.size()), request.threads, packed.rate, "particle-steps per CPU-second", reference.rate,
-            packed.rate / reference.rate, error};
+    for (std::size_t i = 0; i < packed.places.size(); ++i)
+        error = std::max(error, norm(packed.places[i] - reference.places[i]) / (across * spacing));
+    return {name,
+            std::int64_t(packed.places.size()),
+            request.threads,
+            packed.rate,
+            "particle-steps per CPU-second",
+            reference.rate,
+            packed.rate / reference.rate,
+            error};
 }
 
 }   // namespace
@@ -75,23 +85,27 @@ BenchResult bench_block(const std::string& name, const SolidLaw& law, Precision 
 std::vector<BenchResult> run_solid_bench(const BenchRequest& request) {
     const ElasticModuli rubber = elastic_moduli({.young = 1e6, .poisson = 0.45, .shear = {}, .bulk = {}});
     const ElasticModuli steel = elastic_moduli({.young = 193e9, .poisson = 0.3, .shear = {}, .bulk = {}});
-    const SolidLaw elastic = NeoHookean::from(rubber), metal = J2Plastic{steel, {.yield = 205e6, .slope = 1.5e9, .saturation = 0, .rate = 0}};
+    const SolidLaw elastic = NeoHookean::from(rubber),
+                   metal = J2Plastic{steel, {.yield = 205e6, .slope = 1.5e9, .saturation = 0, .rate = 0}};
     struct Bench {
         std::string name;
         const SolidLaw& law;
         Precision precision;
     };
     std::vector<BenchResult> results;
-    for (const Bench& b : {Bench{"block_mixed", elastic, Precision::mixed}, Bench{"block_double", elastic, Precision::double_precision},
-                           Bench{"metal_mixed", metal, Precision::mixed}}) {
-        const bool is_wanted = request.names.empty() || std::any_of(request.names.begin(), request.names.end(), [&](const std::string& part) {
+    for (const Bench& b :
+         {Bench{"block_mixed", elastic, Precision::mixed}, Bench{"block_double", elastic, Precision::double_precision},
+          Bench{"metal_mixed", metal, Precision::mixed}}) {
+        const bool is_wanted = request.names.empty() ||
+                               std::any_of(request.names.begin(), request.names.end(), [&](const std::string& part) {
                                    return b.name.find(part) != std::string::npos;
                                });
         if (!is_wanted) continue;
         results.push_back(bench_block(b.name, b.law, b.precision, request));
         if (request.report) request.report(results.back());
     }
-    if (results.empty()) throw UsageError("no benchmark has that name; there are block_mixed, block_double and metal_mixed");
+    if (results.empty())
+        throw UsageError("no benchmark has that name; there are block_mixed, block_double and metal_mixed");
     return results;
 }
 

@@ -46,7 +46,8 @@ void add_imbalance(const Results& results, const std::vector<std::string>& runs,
 
 // Between plates.
 
-void measure_poiseuille(const deck::Case& config, const std::string& run, const std::filesystem::path&, const Stop& interrupted, RunData& data) {
+void measure_poiseuille(const deck::Case& config, const std::string& run, const std::filesystem::path&,
+                        const Stop& interrupted, RunData& data) {
     const Lumen lumen = make_cell_lumen(config);
     CellPoints points = make_cell_points(lumen, config.numerics.spacing);
     if (run.ends_with("disordered")) shake(lumen, 0.25, points);
@@ -55,7 +56,8 @@ void measure_poiseuille(const deck::Case& config, const std::string& run, const 
     expect_converged(*scene);
     put_solution(*scene, data);
 
-    const double gap = config.geometry.shape->gap, mu = config.blood.viscosity, peak = config.openings.at("inlet").peak_velocity.value();
+    const double gap = config.geometry.shape->gap, mu = config.blood.viscosity,
+                 peak = config.openings.at("inlet").peak_velocity.value();
     const PlaneFlow flow{gap, 8 * mu * peak / (gap * gap), config.blood.density, mu};
     // As of moving particles: at the rows of a lattice, from what lies within four spacings of mid-length.
     const int rows = int(std::lround(gap / config.numerics.spacing));
@@ -67,12 +69,14 @@ void measure_poiseuille(const deck::Case& config, const std::string& run, const 
         const double along = at.x - 0.5 * config.geometry.shape->length, v = scene->mesh.volume[i];
         if (std::abs(along) < 4 * config.numerics.spacing) fit.add(at.y, fields.velocity[i].x, v);
         if (std::abs(along) > 0.25 * config.geometry.shape->length) continue;
-        w += v, x += v * along, p += v * fields.pressure[i], xx += v * along * along, xp += v * along * fields.pressure[i];
+        w += v, x += v * along, p += v * fields.pressure[i], xx += v * along * along,
+            xp += v * along * fields.pressure[i];
     }
     std::vector<double> exact;
     for (const double y : fit.stations()) exact.push_back(plane_poiseuille_velocity(flow, y));
     put(data, "rmsep", rmsep_percent(fit.values(), exact));
-    put(data, "gradient_error_percent", 100 * std::abs(-(w * xp - x * p) / (w * xx - x * x) / flow.pressure_gradient - 1));
+    put(data, "gradient_error_percent",
+        100 * std::abs(-(w * xp - x * p) / (w * xx - x * x) / flow.pressure_gradient - 1));
 }
 
 void poiseuille_figures(const Results& results, FigureList& figures) {
@@ -82,24 +86,27 @@ void poiseuille_figures(const Results& results, FigureList& figures) {
         for (const auto& [name, bar] : runs) {
             const std::string run = name + disorder;
             all.push_back(run);
-            figures.add({"rmsep_percent_" + run, "percent", disorder.empty() ? std::optional(Bar{bar}) : std::nullopt}, {run},
-                        [&results, run] { return results[run].number("rmsep"); });
-            figures.add({"gradient_error_percent_" + run, "percent", {}}, {run}, [&results, run] { return results[run].number("gradient_error_percent"); });
+            figures.add({"rmsep_percent_" + run, "percent", disorder.empty() ? std::optional(Bar{bar}) : std::nullopt},
+                        {run}, [&results, run] { return results[run].number("rmsep"); });
+            figures.add({"gradient_error_percent_" + run, "percent", {}}, {run},
+                        [&results, run] { return results[run].number("gradient_error_percent"); });
         }
     add_imbalance(results, all, figures);
 }
 
 // A taper.
 
-void measure_taper(const deck::Case& config, const std::string&, const std::filesystem::path&, const Stop& interrupted, RunData& data) {
+void measure_taper(const deck::Case& config, const std::string&, const std::filesystem::path&, const Stop& interrupted,
+                   RunData& data) {
     const auto scene = make_solved_scene(config, [&](const CellScene&) { return interrupted && interrupted(); });
     expect_converged(*scene);
     put_solution(*scene, data);
     const StraightAxis axis = find_straight_axis(config.geometry).value();
     const double inlet_radius = axis.outline.front().radius;
-    const SlenderTube tube{[axis](double x) { return axis.radius_at(x); }, axis.length,
-                           std::numbers::pi * inlet_radius * inlet_radius * config.openings.at("inlet").velocity.value(), config.blood.density,
-                           config.blood.viscosity};
+    const SlenderTube tube{
+        [axis](double x) { return axis.radius_at(x); }, axis.length,
+        std::numbers::pi * inlet_radius * inlet_radius * config.openings.at("inlet").velocity.value(),
+        config.blood.density, config.blood.viscosity};
     const auto ends = scene->balance->end_states();
     put(data, "drop", ends[0].pressure - ends[1].pressure);
     put(data, "exact_drop", slender_tube_pressure_drop(tube, 0, tube.length));
@@ -112,7 +119,8 @@ void measure_taper(const deck::Case& config, const std::string&, const std::file
     double creeping = 0;   // Poiseuille's loss alone, place by place
     constexpr int parts = 4000;
     for (int k = 0; k < parts; ++k)
-        creeping += pipe_pressure_gradient(axis.radius_at((k + 0.5) / parts * tube.length), tube.viscosity, tube.flow) * tube.length / parts;
+        creeping += pipe_pressure_gradient(axis.radius_at((k + 0.5) / parts * tube.length), tube.viscosity, tube.flow) *
+                    tube.length / parts;
     put(data, "creeping_drop", creeping);
     const auto [finest, widest] = std::minmax_element(scene->mesh.volume.begin(), scene->mesh.volume.end());
     put(data, "spacing_ratio", std::cbrt(*widest / *finest));
@@ -122,12 +130,17 @@ void taper_figures(const Results& results, FigureList& figures) {
     const auto error_percent = [&results](const std::string& run, const std::string& name) {
         return 100 * std::abs(results[run].number(name) / results[run].number("exact_" + name) - 1);
     };
-    figures.add({"pressure_drop_error_percent", "percent", Bar{1.5}}, {"n12"}, [&] { return error_percent("n12", "drop"); });
-    figures.add({"pressure_drop_error_percent_n20", "percent", Bar{1.5}}, {"n20"}, [&] { return error_percent("n20", "drop"); });
+    figures.add({"pressure_drop_error_percent", "percent", Bar{1.5}}, {"n12"},
+                [&] { return error_percent("n12", "drop"); });
+    figures.add({"pressure_drop_error_percent_n20", "percent", Bar{1.5}}, {"n20"},
+                [&] { return error_percent("n20", "drop"); });
     for (const std::string run : {"n12", "n20"})
-        figures.add({"inner_pressure_drop_error_percent_" + run, "percent", {}}, {run}, [&] { return error_percent(run, "inner_drop"); });
-    figures.add({"drop_over_creeping", "1", {}}, {"n12"}, [&] { return results["n12"].number("exact_drop") / results["n12"].number("creeping_drop"); });
-    figures.add({"spacing_ratio", "1", Bar{4, Sense::at_least}}, {"n12"}, [&] { return results["n12"].number("spacing_ratio"); });
+        figures.add({"inner_pressure_drop_error_percent_" + run, "percent", {}}, {run},
+                    [&] { return error_percent(run, "inner_drop"); });
+    figures.add({"drop_over_creeping", "1", {}}, {"n12"},
+                [&] { return results["n12"].number("exact_drop") / results["n12"].number("creeping_drop"); });
+    figures.add({"spacing_ratio", "1", Bar{4, Sense::at_least}}, {"n12"},
+                [&] { return results["n12"].number("spacing_ratio"); });
     add_imbalance(results, {"n12", "n20"}, figures);
 }
 
@@ -140,7 +153,8 @@ double reattachment(const CellScene& scene) {
     std::vector<std::pair<double, double>> along;
     for (std::size_t k = 0; k < stress.size(); ++k) {
         const CellPatch& patch = scene.mesh.patches[k];
-        if (patch.opening == CellPatch::wall && patch.normal.y < -0.5 && patch.centroid.y < low && patch.centroid.x > step_at)
+        if (patch.opening == CellPatch::wall && patch.normal.y < -0.5 && patch.centroid.y < low &&
+            patch.centroid.x > step_at)
             along.push_back({patch.centroid.x - step_at, stress[k].x});
     }
     std::sort(along.begin(), along.end());
@@ -152,7 +166,8 @@ double reattachment(const CellScene& scene) {
     throw GeometryError("the flow nowhere comes back to the wall behind the step");
 }
 
-void measure_corner(const deck::Case& config, const std::string&, const std::filesystem::path&, const Stop& interrupted, RunData& data) {
+void measure_corner(const deck::Case& config, const std::string&, const std::filesystem::path&, const Stop& interrupted,
+                    RunData& data) {
     const auto scene = make_solved_scene(config, [&](const CellScene&) { return interrupted && interrupted(); });
     expect_converged(*scene);
     put_solution(*scene, data);
@@ -164,10 +179,15 @@ void corner_figures(const Results& results, FigureList& figures) {
     // the gap there. A finite-difference solution made for this case, of vorticity and stream function, has 4.983 at 200 (twenty
     // points over the step) and tends to 2.91 at 100.
     constexpr double at_100 = 2.922, at_200 = 4.982;
-    const auto error_percent = [&results](const std::string& run, double length) { return 100 * std::abs(results[run].number("length") / length - 1); };
-    figures.add({"reattachment_error_percent", "percent", Bar{5}}, {"re200"}, [&] { return error_percent("re200", at_200); });
-    figures.add({"reattachment_error_percent_re100", "percent", Bar{5}}, {"re100"}, [&] { return error_percent("re100", at_100); });
-    figures.add({"reattachment_error_percent_re200_fine", "percent", Bar{5}}, {"re200_fine"}, [&] { return error_percent("re200_fine", at_200); });
+    const auto error_percent = [&results](const std::string& run, double length) {
+        return 100 * std::abs(results[run].number("length") / length - 1);
+    };
+    figures.add({"reattachment_error_percent", "percent", Bar{5}}, {"re200"},
+                [&] { return error_percent("re200", at_200); });
+    figures.add({"reattachment_error_percent_re100", "percent", Bar{5}}, {"re100"},
+                [&] { return error_percent("re100", at_100); });
+    figures.add({"reattachment_error_percent_re200_fine", "percent", Bar{5}}, {"re200_fine"},
+                [&] { return error_percent("re200_fine", at_200); });
     for (const std::string run : {"re100", "re200", "re200_fine"})
         figures.add({"reattachment_over_step_" + run, "1", {}}, {run}, [&] { return results[run].number("length"); });
     add_imbalance(results, {"re100", "re200", "re200_fine"}, figures);
@@ -177,15 +197,23 @@ void corner_figures(const Results& results, FigureList& figures) {
 
 std::vector<VerifyCase> cell_shape_cases() {
     const auto on_cells = [](const char* name, const char* title, auto is_full, auto measure, auto figures) {
-        return VerifyCase{.name = name, .title = title, .is_full = is_full, .measure = {}, .measure_cells = measure,
-                          .figures = figures, .pictures = {}};
+        return VerifyCase{.name = name,
+                          .title = title,
+                          .is_full = is_full,
+                          .measure = {},
+                          .measure_cells = measure,
+                          .figures = figures,
+                          .pictures = {}};
     };
-    return {on_cells("cells_poiseuille", "Steady flow on cells between plates, of relaxed and of disordered particles",
-                     [](const std::string& run) { return run.starts_with("d50"); }, measure_poiseuille, poiseuille_figures),
-            on_cells("cells_taper", "Steady flow on cells in a pipe that narrows to a quarter, whose cells follow it",
-                     [](const std::string& run) { return run == "n20"; }, measure_taper, taper_figures),
-            on_cells("cells_corner", "Steady flow on cells over a step: where it comes back to the wall",
-                     [](const std::string& run) { return run == "re200_fine"; }, measure_corner, corner_figures)};
+    return {on_cells(
+                "cells_poiseuille", "Steady flow on cells between plates, of relaxed and of disordered particles",
+                [](const std::string& run) { return run.starts_with("d50"); }, measure_poiseuille, poiseuille_figures),
+            on_cells(
+                "cells_taper", "Steady flow on cells in a pipe that narrows to a quarter, whose cells follow it",
+                [](const std::string& run) { return run == "n20"; }, measure_taper, taper_figures),
+            on_cells(
+                "cells_corner", "Steady flow on cells over a step: where it comes back to the wall",
+                [](const std::string& run) { return run == "re200_fine"; }, measure_corner, corner_figures)};
 }
 
 }   // namespace patency

@@ -24,7 +24,7 @@ double integral(double from, double to, F f) {
     return sum * (to - from) / (3 * n);
 }
 
-}  // namespace
+}   // namespace
 
 double plane_poiseuille_velocity(const PlaneFlow& flow, double y) {
     return flow.pressure_gradient / (2 * flow.viscosity) * y * (flow.gap - y);
@@ -111,7 +111,7 @@ WomersleyMode make_mode(const PipeFlow& pipe, const Oscillation& o) {
 Complex mean_velocity(const PipeFlow& pipe, const Oscillation& o, const WomersleyMode& mode) {
     return pipe.pressure_gradient * pipe.radius * pipe.radius / o.viscosity * mode.mobility();
 }
-}  // namespace
+}   // namespace
 
 Complex womersley_pipe_velocity(const PipeFlow& pipe, const Oscillation& o, double r) {
     const WomersleyMode mode = make_mode(pipe, o);
@@ -219,4 +219,4 @@ YNetworkFlow solve_y_network(const YNetwork& network, const FourierSeries& inflo
     return result;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -85,8 +85,8 @@ struct TaylorGreen {
     double density;     // kg/m3
     double viscosity;   // Pa s
 
-    double wave_number() const;          // k = 2 pi / L, 1/m
-    double energy_decay_rate() const;    // 4 nu k^2, 1/s
+    double wave_number() const;         // k = 2 pi / L, 1/m
+    double energy_decay_rate() const;   // 4 nu k^2, 1/s
     Vec3 velocity(const Vec3& place, double time) const;
     double pressure(const Vec3& place, double time) const;   // with zero mean
 };
@@ -120,4 +120,4 @@ std::complex<double> tube_impedance(Section section, const YNetwork::Tube& tube,
 /// The periodic state for a periodic inflow [m3/s], mode by mode; when the start is forgotten.
 YNetworkFlow solve_y_network(const YNetwork& network, const FourierSeries& inflow);
 
-}  // namespace patency
+}   // namespace patency

@@ -58,7 +58,8 @@ void measure_two_rings(const deck::Case& config, const std::string& run, const S
         const Sums now = sums_of(*scene);
         momentum = std::max(momentum, norm(now.momentum - start.momentum) / scale);
         turn = std::max(turn, norm(now.turn - start.turn) / turn_scale);
-        if (scene->system.contacts[0]->report().touching == 0) energy = std::max(energy, std::abs(now.energy - start.energy) / start.energy);
+        if (scene->system.contacts[0]->report().touching == 0)
+            energy = std::max(energy, std::abs(now.energy - start.energy) / start.energy);
     }
     note_size(*scene, data);
     data.lists["momentum"] = {momentum};
@@ -70,13 +71,17 @@ void measure_two_rings(const deck::Case& config, const std::string& run, const S
 
 void two_rings_figures(const Results& results, FigureList& figures) {
     figures.add({"momentum_drift", "1", Bar{1e-10}}, {"middle"}, [&] { return results["middle"].number("momentum"); });
-    figures.add({"angular_momentum_drift", "1", Bar{1e-10}}, {"middle"}, [&] { return results["middle"].number("turn"); });
+    figures.add({"angular_momentum_drift", "1", Bar{1e-10}}, {"middle"},
+                [&] { return results["middle"].number("turn"); });
     figures.add({"energy_growth", "1", Bar{1e-3}}, {"middle"}, [&] { return results["middle"].number("energy"); });
     figures.add({"energy_order", "1", Bar{1.8, Sense::at_least}}, {"coarse", "fine"}, [&] {
-        return observed_order(results["coarse"].number("energy"), results["coarse"].number("dt"), results["fine"].number("energy"), results["fine"].number("dt"));
+        return observed_order(results["coarse"].number("energy"), results["coarse"].number("dt"),
+                              results["fine"].number("energy"), results["fine"].number("dt"));
     });
-    figures.add({"momentum_drift_mixed", "1", Bar{1e-6}}, {"mixed"}, [&] { return results["mixed"].number("momentum"); });
-    figures.add({"vertices_in_contact", "1", Bar{1, Sense::at_least}}, {"middle"}, [&] { return results["middle"].number("touching"); });
+    figures.add({"momentum_drift_mixed", "1", Bar{1e-6}}, {"mixed"},
+                [&] { return results["mixed"].number("momentum"); });
+    figures.add({"vertices_in_contact", "1", Bar{1, Sense::at_least}}, {"middle"},
+                [&] { return results["middle"].number("touching"); });
 }
 
 // Three rings.
@@ -89,7 +94,8 @@ void measure_three_rings(const deck::Case& config, const std::string&, const Sto
     const auto touches = [&](std::size_t contact) { return scene->system.contacts[contact]->report().touching > 0; };
     double first = 0, scale = 0, balance = 0, growth = 0, outer_touched = 0, self_touched = 0;
     for (const auto& part : scene->system.parts)
-        for (std::size_t i = 0; i < part->body->particles().size(); ++i) scale += part->body->particles().mass[i] * norm(part->body->particles().velocity[i]);
+        for (std::size_t i = 0; i < part->body->particles().size(); ++i)
+            scale += part->body->particles().mass[i] * norm(part->body->particles().velocity[i]);
     run_to(*scene, config.numerics.duration, interrupted, [&] {
         if (first == 0 && touches(0)) first = scene->time;
         outer_touched += touches(1), self_touched += touches(2);
@@ -108,7 +114,9 @@ void measure_three_rings(const deck::Case& config, const std::string&, const Sto
 
 void three_rings_figures(const Results& results, FigureList& figures) {
     constexpr double first_touch = 0.014254;   // s: the gap of the circles over the closing speed along their line
-    const auto number = [&](const char* name) { return [&results, name] { return results["three_rings"].number(name); }; };
+    const auto number = [&](const char* name) {
+        return [&results, name] { return results["three_rings"].number(name); };
+    };
     figures.add({"first_touch_error_percent", "percent", Bar{2}}, {"three_rings"},
                 [&] { return 100 * std::abs(results["three_rings"].number("first_touch") / first_touch - 1); });
     figures.add({"momentum_balance", "1", Bar{1e-8}}, {"three_rings"}, number("balance"));
@@ -153,26 +161,36 @@ void measure_incline(const deck::Case& config, const std::string& run, const Sto
         }
     }
     const Mat3 M{{s[0], s[1], s[2]}, {s[1], s[2], s[3]}, {s[2], s[3], s[4]}};
-    const double measured = 2 * (inverse(M) * Vec3{b[0], b[1], b[2]}).z / (from * from), exact = g.x + mu * g.y;   // g.y < 0
+    const double measured = 2 * (inverse(M) * Vec3{b[0], b[1], b[2]}).z / (from * from),
+                 exact = g.x + mu * g.y;   // g.y < 0
     data.lists["slide_error_percent"] = {100 * std::abs(measured / exact - 1)};
 }
 
 void incline_figures(const Results& results, FigureList& figures) {
-    figures.add({"slide_error_percent", "percent", Bar{2}}, {"slide"}, [&] { return results["slide"].number("slide_error_percent"); });
-    figures.add({"stick_creep_percent", "percent", Bar{0.1}}, {"stick"}, [&] { return results["stick"].number("creep_percent"); });
+    figures.add({"slide_error_percent", "percent", Bar{2}}, {"slide"},
+                [&] { return results["slide"].number("slide_error_percent"); });
+    figures.add({"stick_creep_percent", "percent", Bar{0.1}}, {"stick"},
+                [&] { return results["stick"].number("creep_percent"); });
 }
 
 }   // namespace
 
 std::vector<VerifyCase> contact_cases() {
     const auto contact = [](const char* name, const char* title, auto measure, auto figures) {
-        return VerifyCase{.name = name, .title = title, .is_full = {}, .measure = {}, .measure_solids = measure,
-                          .figures = figures, .pictures = {}};
+        return VerifyCase{.name = name,
+                          .title = title,
+                          .is_full = {},
+                          .measure = {},
+                          .measure_solids = measure,
+                          .figures = figures,
+                          .pictures = {}};
     };
     std::vector<VerifyCase> cases = {
-        contact("incline", "A block on a slope, below and above the angle of friction", measure_incline, incline_figures),
+        contact("incline", "A block on a slope, below and above the angle of friction", measure_incline,
+                incline_figures),
         contact("two_rings", "Two elastic rings that collide: what is kept", measure_two_rings, two_rings_figures),
-        contact("three_rings", "Three rings, the outermost held: the reference paper's section III.C, mended", measure_three_rings, three_rings_figures)};
+        contact("three_rings", "Three rings, the outermost held: the reference paper's section III.C, mended",
+                measure_three_rings, three_rings_figures)};
     cases[2].level = Level::full;
     cases.push_back(hertz_case());
     return cases;

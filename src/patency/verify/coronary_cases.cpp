@@ -20,8 +20,8 @@ namespace patency {
 namespace {
 
 constexpr double mm = 1e-3;
-constexpr int instants = 5;         // of the last window
-constexpr double least_wss = 1;     // Pa: below, the absolute error counts
+constexpr int instants = 5;       // of the last window
+constexpr double least_wss = 1;   // Pa: below, the absolute error counts
 
 /// None where the file is not there: then no run was measured either.
 std::vector<VesselSection> known_sections(const Results& results) {
@@ -64,15 +64,16 @@ double number(const RunData& data, const std::string& name) { return data.list(n
 std::size_t section_at(const std::vector<VesselSection>& sections, const std::string& branch, double arc) {
     std::size_t found = sections.size();
     for (std::size_t k = 0; k < sections.size(); ++k)
-        if (sections[k].branch == branch && (found == sections.size() || std::abs(sections[k].arc - arc) < std::abs(sections[found].arc - arc)))
+        if (sections[k].branch == branch &&
+            (found == sections.size() || std::abs(sections[k].arc - arc) < std::abs(sections[found].arc - arc)))
             found = k;
     return found;
 }
 
 struct OutletReference {
     const char *name, *key;
-    double flow;            // finite volumes [m^3/s]
-    double paper_velocity;  // printed in the paper's table VI [m/s]
+    double flow;             // finite volumes [m^3/s]
+    double paper_velocity;   // printed in the paper's table VI [m/s]
 };
 constexpr OutletReference outlets[] = {{"outlet_large", "large", 3.03084489e-6, 0.325},
                                        {"outlet_medium", "medium", 5.63052032e-7, 0.066},
@@ -98,10 +99,17 @@ double combined_error(const RunData& data, const std::vector<VesselSection>& sec
 void bifurcation_figures(const Results& results, FigureList& figures) {
     const auto sections = known_sections(results);
     const auto at = [&](double arc) { return section_at(sections, stenosed, arc); };
-    const auto drop = [&](const RunData& data) { return data.list("pressure")[at(proximal_arc)] - data.list("pressure")[at(distal_arc)]; };
-    for (const auto& [run, suffix, judged] : {std::tuple{"d20", "", true}, {"d30", "_d30", false}, {"d40", "_d40", false}}) {
-        const auto bar = [&, judged = judged](double value) { return judged ? std::optional(Bar{value}) : std::nullopt; };
-        const auto add = [&, run = run, suffix = suffix](const std::string& key, const std::string& unit, std::optional<Bar> limit, const std::function<double(const RunData&)>& value) {
+    const auto drop = [&](const RunData& data) {
+        return data.list("pressure")[at(proximal_arc)] - data.list("pressure")[at(distal_arc)];
+    };
+    for (const auto& [run, suffix, judged] :
+         {std::tuple{"d20", "", true}, {"d30", "_d30", false}, {"d40", "_d40", false}}) {
+        const auto bar = [&, judged = judged](double value) {
+            return judged ? std::optional(Bar{value}) : std::nullopt;
+        };
+        const auto add = [&, run = run, suffix = suffix](const std::string& key, const std::string& unit,
+                                                         std::optional<Bar> limit,
+                                                         const std::function<double(const RunData&)>& value) {
             figures.add({key + suffix, unit, limit}, {run}, [&, value] { return value(results[run]); });
         };
         for (const OutletReference& o : outlets) {
@@ -121,8 +129,9 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
             const double exact = sections[at(proximal_arc)].pressure - sections[at(distal_arc)].pressure;
             return 100 * std::abs(drop(d) / exact - 1);
         });
-        add("throat_peak_error_percent", "percent", bar(5),
-            [&](const RunData& d) { return 100 * std::abs(d.list("peak")[at(throat_arc)] / sections[at(throat_arc)].peak - 1); });
+        add("throat_peak_error_percent", "percent", bar(5), [&](const RunData& d) {
+            return 100 * std::abs(d.list("peak")[at(throat_arc)] / sections[at(throat_arc)].peak - 1);
+        });
         add("gauge_pressure_ratio_error", "1", bar(0.02), [&](const RunData& d) {
             return std::abs(d.list("pressure")[at(distal_arc)] / d.list("pressure")[at(proximal_arc)] - 0.4559);
         });
@@ -130,7 +139,8 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
         add("wss_error_percent", "percent", bar(8), [&](const RunData& d) {
             double worst = 0;
             for (std::size_t k = 0; k < sections.size(); ++k)
-                if (sections[k].wss >= least_wss) worst = std::max(worst, 100 * std::abs(d.list("wss")[k] / sections[k].wss - 1));
+                if (sections[k].wss >= least_wss)
+                    worst = std::max(worst, 100 * std::abs(d.list("wss")[k] / sections[k].wss - 1));
             return worst;
         });
         add("wss_error_pa", "Pa", bar(0.15), [&](const RunData& d) {
@@ -139,23 +149,30 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
                 if (sections[k].wss < least_wss) worst = std::max(worst, std::abs(d.list("wss")[k] - sections[k].wss));
             return worst;
         });
-        add("combined_error_percent", "percent", std::nullopt, [&](const RunData& d) { return combined_error(d, sections); });
+        add("combined_error_percent", "percent", std::nullopt,
+            [&](const RunData& d) { return combined_error(d, sections); });
     }
     // Falling errors: the worst ratio of one spacing's to the next coarser one's.
     figures.add({"combined_error_growth", "1", Bar{1.0}}, {"d20", "d30", "d40"}, [&] {
-        const double a = combined_error(results["d40"], sections), b = combined_error(results["d30"], sections), c = combined_error(results["d20"], sections);
+        const double a = combined_error(results["d40"], sections), b = combined_error(results["d30"], sections),
+                     c = combined_error(results["d20"], sections);
         return std::max(b / a, c / b);
     });
     const auto study = [&results](const auto& value) {
-        return SpacingStudy{{0.4 * mm, 0.3 * mm, 0.2 * mm}, {value(results["d40"]), value(results["d30"]), value(results["d20"])}};
+        return SpacingStudy{{0.4 * mm, 0.3 * mm, 0.2 * mm},
+                            {value(results["d40"]), value(results["d30"]), value(results["d20"])}};
     };
-    const auto extrapolate = [&](const std::string& key, const std::string& unit, const std::function<double(const RunData&)>& value) {
-        figures.add({key + "_extrapolated", unit, {}}, {"d20", "d30", "d40"}, [=] { return study(value).extrapolated(); });
-        figures.add({key + "_grid_convergence_index_percent", "percent", {}}, {"d20", "d30", "d40"}, [=] { return study(value).convergence_index_percent(); });
+    const auto extrapolate = [&](const std::string& key, const std::string& unit,
+                                 const std::function<double(const RunData&)>& value) {
+        figures.add({key + "_extrapolated", unit, {}}, {"d20", "d30", "d40"},
+                    [=] { return study(value).extrapolated(); });
+        figures.add({key + "_grid_convergence_index_percent", "percent", {}}, {"d20", "d30", "d40"},
+                    [=] { return study(value).convergence_index_percent(); });
     };
     extrapolate("drop", "Pa", drop);
     for (const OutletReference& o : outlets)
-        extrapolate(fmt::format("flow_{}", o.key), "m^3/s", [name = std::string("flow_") + o.name](const RunData& d) { return number(d, name); });
+        extrapolate(fmt::format("flow_{}", o.key), "m^3/s",
+                    [name = std::string("flow_") + o.name](const RunData& d) { return number(d, name); });
     figures.add({"offset_change_percent", "percent", Bar{0.1}}, {"d40", "d40_level"}, [&] {
         double worst = 0;
         for (const char* list : {"flow", "peak", "wss"}) {
@@ -166,16 +183,21 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
         return worst;
     });
     for (const auto& [start, run] : {std::pair{"cells", "d40"}, std::pair{"estimate", "d40_estimate"}})
-        figures.add({fmt::format("steps_from_{}_over_rest", start), "1", Bar{0.5}}, {run, "d40_rest"},
-                    [&, run] { return number(results[run], "acoustic_steps") / number(results["d40_rest"], "acoustic_steps"); });
+        figures.add({fmt::format("steps_from_{}_over_rest", start), "1", Bar{0.5}}, {run, "d40_rest"}, [&, run] {
+            return number(results[run], "acoustic_steps") / number(results["d40_rest"], "acoustic_steps");
+        });
     for (const OutletReference& o : outlets) {
         const std::string name = std::string("velocity_") + o.name;
-        figures.add({fmt::format("velocity_{}", o.key), "m/s", {}}, {"d20"}, [&results, name] { return number(results["d20"], name); });
-        figures.add({fmt::format("paper_printed_velocity_{}", o.key), "m/s", {}}, {"d20"}, [&o] { return o.paper_velocity; });
-        figures.add({fmt::format("velocity_{}_re600", o.key), "m/s", {}}, {"d40_re600"}, [&results, name] { return number(results["d40_re600"], name); });
+        figures.add({fmt::format("velocity_{}", o.key), "m/s", {}}, {"d20"},
+                    [&results, name] { return number(results["d20"], name); });
+        figures.add({fmt::format("paper_printed_velocity_{}", o.key), "m/s", {}}, {"d20"},
+                    [&o] { return o.paper_velocity; });
+        figures.add({fmt::format("velocity_{}_re600", o.key), "m/s", {}}, {"d40_re600"},
+                    [&results, name] { return number(results["d40_re600"], name); });
     }
-    figures.add({"gauge_pressure_ratio", "1", {}}, {"d20"},
-                [&, at] { return results["d20"].list("pressure")[at(distal_arc)] / results["d20"].list("pressure")[at(proximal_arc)]; });
+    figures.add({"gauge_pressure_ratio", "1", {}}, {"d20"}, [&, at] {
+        return results["d20"].list("pressure")[at(distal_arc)] / results["d20"].list("pressure")[at(proximal_arc)];
+    });
     figures.add({"paper_printed_gauge_pressure_ratio", "1", {}}, {"d20"}, [] { return 0.45; });
 }
 
@@ -193,11 +215,14 @@ std::vector<Picture> bifurcation_pictures(const Results& results) {
     shear.push_back(curve("finite volumes", true, [&](std::size_t k) { return sections[k].wss; }));
     for (const auto& [run, title] : {std::pair{"d40", "0.4 mm"}, {"d30", "0.3 mm"}, {"d20", "0.2 mm"}}) {
         if (!results.has(run)) continue;
-        pressure.push_back(curve(title, false, [&, run = run](std::size_t k) { return results[run].list("pressure")[k]; }));
+        pressure.push_back(
+            curve(title, false, [&, run = run](std::size_t k) { return results[run].list("pressure")[k]; }));
         shear.push_back(curve(title, false, [&, run = run](std::size_t k) { return results[run].list("wss")[k]; }));
     }
-    return {{"coronary_pressure", "Mean pressure of sections along the stenosed branch", format_plot({"arc [mm]", "p [Pa]", pressure})},
-            {"coronary_wss", "Mean wall shear stress of sections along the stenosed branch", format_plot({"arc [mm]", "WSS [Pa]", shear})}};
+    return {{"coronary_pressure", "Mean pressure of sections along the stenosed branch",
+             format_plot({"arc [mm]", "p [Pa]", pressure})},
+            {"coronary_wss", "Mean wall shear stress of sections along the stenosed branch",
+             format_plot({"arc [mm]", "WSS [Pa]", shear})}};
 }
 
 }   // namespace

@@ -14,4 +14,4 @@ inline double cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -38,8 +38,12 @@ std::string format_report(const CaseReport& report) {
         if (!f.value) j["reason"] = f.reason;
         figures.push_back(j);
     }
-    return Json({{"name", report.name}, {"level", word_of(report.level)}, {"particles", report.particles}, {"figures", figures}})
-               .dump(1) + "\n";
+    return Json({{"name", report.name},
+                 {"level", word_of(report.level)},
+                 {"particles", report.particles},
+                 {"figures", figures}})
+               .dump(1) +
+           "\n";
 }
 
 CaseReport parse_report(const std::string& text, const std::string& source) {
@@ -50,9 +54,11 @@ CaseReport parse_report(const std::string& text, const std::string& source) {
         report.level = j.at("level") == "full" ? Level::full : Level::quick;
         report.particles = j.at("particles");
         for (const Json& f : j.at("figures")) {
-            Figure figure{.key = f.at("key"), .value = {}, .unit = f.at("unit"), .bar = {}, .reason = f.value("reason", "")};
+            Figure figure{
+                .key = f.at("key"), .value = {}, .unit = f.at("unit"), .bar = {}, .reason = f.value("reason", "")};
             if (!f.at("value").is_null()) figure.value = f.at("value").get<double>();
-            if (!f.at("bar").is_null()) figure.bar = Bar{f.at("bar"), f.at("sense") == "<=" ? Sense::at_most : Sense::at_least};
+            if (!f.at("bar").is_null())
+                figure.bar = Bar{f.at("bar"), f.at("sense") == "<=" ? Sense::at_most : Sense::at_least};
             report.figures.push_back(figure);
         }
         return report;
@@ -61,4 +67,4 @@ CaseReport parse_report(const std::string& text, const std::string& source) {
     }
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -48,4 +48,4 @@ std::string format_report(const CaseReport& report);
 /// Reads what format_report wrote. @throws FileError with `source` if it is something else.
 CaseReport parse_report(const std::string& text, const std::string& source);
 
-}  // namespace patency
+}   // namespace patency

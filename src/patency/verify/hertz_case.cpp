@@ -29,7 +29,8 @@ Footprint footprint_of(const SolidSurface& surface, double sign) {
     Footprint print;
     std::vector<std::size_t> order;
     for (std::size_t v = 0; v < surface.size(); ++v) order.push_back(v);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return surface.position[a].x < surface.position[b].x; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return surface.position[a].x < surface.position[b].x; });
     for (const std::size_t v : order) {
         print.place.push_back(surface.position[v].x);
         print.force.push_back(sign * surface.force[v].y);
@@ -47,7 +48,8 @@ Ellipse fit_ellipse(const Footprint& print) {
     double middle = 0;
     for (std::size_t k = 0; k < print.place.size(); ++k) middle += print.force[k] * print.place[k] / print.load();
     double spread = 0;
-    for (std::size_t k = 0; k < print.place.size(); ++k) spread += print.force[k] * std::pow(print.place[k] - middle, 2) / print.load();
+    for (std::size_t k = 0; k < print.place.size(); ++k)
+        spread += print.force[k] * std::pow(print.place[k] - middle, 2) / print.load();
     const double first = 2 * std::sqrt(spread);   // an ellipse's half-width, from its second moment
     // Of a vertex the mean over its length: what an even pressure gives it.
     const auto shape_at = [&](std::size_t k, double b) {
@@ -94,17 +96,21 @@ void measure_sphere(SolidScene& scene, const Stop& interrupted, RunData& data) {
     note_size(scene, data);
     const SolidPart &block = scene.part("lower"), &sphere = scene.part("upper");
     const ElasticModuli m = block.solid.materials[0].moduli();
-    const double modulus = contact_modulus(m, sphere.solid.materials[0].moduli()), radius = 0.5 * scene.config.solids[1].shape.diameter,
-                 spacing = scene.config.numerics.spacing, depth = 4 * spacing;
+    const double modulus = contact_modulus(m, sphere.solid.materials[0].moduli()),
+                 radius = 0.5 * scene.config.solids[1].shape.diameter, spacing = scene.config.numerics.spacing,
+                 depth = 4 * spacing;
     double force = 0;
     for (const Vec3& f : block.surface->force) force -= f.z;
-    const double approach = sinking_at(*sphere.body, {0, 0, depth}, 2 * spacing) - sinking_at(*block.body, {0, 0, -depth}, 2 * spacing);
+    const double approach =
+        sinking_at(*sphere.body, {0, 0, depth}, 2 * spacing) - sinking_at(*block.body, {0, 0, -depth}, 2 * spacing);
     const auto exact_approach = [&](double f) {
-        return 2 * (hertz_sinking(radius, modulus, f, m.young(), m.poisson(), 0) - hertz_sinking(radius, modulus, f, m.young(), m.poisson(), depth));
+        return 2 * (hertz_sinking(radius, modulus, f, m.young(), m.poisson(), 0) -
+                    hertz_sinking(radius, modulus, f, m.young(), m.poisson(), depth));
     };
     double low = 0.1 * force, high = 10 * force;   // the force that belongs to this approach
     for (int k = 0; k < 60; ++k) (exact_approach(0.5 * (low + high)) < approach ? low : high) = 0.5 * (low + high);
-    data.lists["force"] = {force}, data.lists["exact_force"] = {0.5 * (low + high)}, data.lists["approach"] = {approach};
+    data.lists["force"] = {force}, data.lists["exact_force"] = {0.5 * (low + high)},
+    data.lists["approach"] = {approach};
     data.lists["contact_radius_over_spacing"] = {std::cbrt(0.75 * force * radius / modulus) / spacing};
 }
 
@@ -140,7 +146,8 @@ void measure_hertz(const deck::Case& config, const std::string&, const Stop& int
     }
     put("kinetic_to_internal", kinetic / internal);
     data.lists["place"] = below.place, data.lists["force"] = below.force, data.lists["length"] = below.length;
-    data.lists["place_above"] = above.place, data.lists["force_above"] = above.force, data.lists["length_above"] = above.length;
+    data.lists["place_above"] = above.place, data.lists["force_above"] = above.force,
+    data.lists["length_above"] = above.length;
 }
 
 const std::vector<std::string> ratios = {"1", "3", "5"}, sphere_runs = {"sphere_1", "sphere_2", "sphere_3"};
@@ -154,9 +161,12 @@ void hertz_figures(const Results& results, FigureList& figures) {
         for (const std::string& ratio : ratios) {
             const std::string run = "ratio_" + ratio + twin, suffix = "_" + ratio + twin;
             all.push_back(run);
-            figures.add({"half_width_error_percent" + suffix, "percent", Bar{4}}, {run}, [=] { return error_percent(run, "half_width"); });
-            figures.add({"peak_pressure_error_percent" + suffix, "percent", Bar{4}}, {run}, [=] { return error_percent(run, "peak"); });
-            figures.add({"penetration_over_spacing" + suffix, "1", {}}, {run}, [&results, run] { return results[run].number("penetration_over_spacing"); });
+            figures.add({"half_width_error_percent" + suffix, "percent", Bar{4}}, {run},
+                        [=] { return error_percent(run, "half_width"); });
+            figures.add({"peak_pressure_error_percent" + suffix, "percent", Bar{4}}, {run},
+                        [=] { return error_percent(run, "peak"); });
+            figures.add({"penetration_over_spacing" + suffix, "1", {}}, {run},
+                        [&results, run] { return results[run].number("penetration_over_spacing"); });
         }
     const auto worst = [&results, all](const std::string& name) {
         double most = 0;
@@ -170,7 +180,8 @@ void hertz_figures(const Results& results, FigureList& figures) {
     });
     figures.add({"spacings_in_half_width", "1", Bar{6, Sense::at_least}}, all, [=, &results] {
         double least = INFINITY;
-        for (const std::string& run : all) least = std::min(least, results[run].number("half_width") / results[run].number("spacing"));
+        for (const std::string& run : all)
+            least = std::min(least, results[run].number("half_width") / results[run].number("spacing"));
         return least;
     });
     figures.add({"reaction_imbalance", "1", Bar{1e-12}}, all, [=] { return worst("imbalance"); });

@@ -66,4 +66,4 @@ double decay_rate(std::span<const double> times, std::span<const double> values)
     return -top / bottom;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -31,10 +31,9 @@ struct SpacingStudy {
 
 /// Complex amplitude a of a signal, f = mean + Re(a e^(i w t)) + other modes, THEORY (13.4): from samples at increasing
 /// times [s], spaced evenly or not, that cover a whole number of periods from the first to the last. w in rad/s.
-std::complex<double> amplitude(std::span<const double> times, std::span<const double> values,
-                               double angular_frequency);
+std::complex<double> amplitude(std::span<const double> times, std::span<const double> values, double angular_frequency);
 
 /// Rate of decay [1/s] of a positive signal by a straight line through its logarithm, THEORY (13.5).
 double decay_rate(std::span<const double> times, std::span<const double> values);
 
-}  // namespace patency
+}   // namespace patency

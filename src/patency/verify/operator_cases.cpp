@@ -38,9 +38,9 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
     const int layers = planar ? 1 : across;
     const FluidMaterial material{.density = 1000, .viscosity = 1e-3, .sound_speed = 1, .viscosity_at = {}};
     // Velocities of the order 1 over the block; the quadratic part is smaller, so that both are seen.
-    const Vec3 slope{3, -2, planar ? 0.0 : 1.0};                                            // of p, 1/half
-    const Mat3 linear{{0.7, -0.3, 0.2}, {0.4, 0.5, -0.6}, {-0.2, 0.8, 0.9}};                // of v, 1/half
-    const Mat3 bend_u{{0.6, 0.2, 0.1}, {0.2, 0.3, -0.2}, {0.1, -0.2, 0.4}};                 // of u, 1/half^2: u += x.A x
+    const Vec3 slope{3, -2, planar ? 0.0 : 1.0};                               // of p, 1/half
+    const Mat3 linear{{0.7, -0.3, 0.2}, {0.4, 0.5, -0.6}, {-0.2, 0.8, 0.9}};   // of v, 1/half
+    const Mat3 bend_u{{0.6, 0.2, 0.1}, {0.2, 0.3, -0.2}, {0.1, -0.2, 0.4}};    // of u, 1/half^2: u += x.A x
     const auto quadratic = [&](const Vec3& x, double share) { return share * dot(x, bend_u * x); };
     fluid.resize(std::size_t(across) * across * layers);
     std::size_t n = 0;
@@ -56,7 +56,8 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
                 fluid.pressure[n] = dot(slope, x / half);
                 const Vec3 q = x / half;
                 const Vec3 v = linear * q;
-                fluid.velocity[n] = {v.x + quadratic(q, 1), v.y + quadratic(q, -0.5), planar ? 0 : v.z + quadratic(q, 0.8)};
+                fluid.velocity[n] = {v.x + quadratic(q, 1), v.y + quadratic(q, -0.5),
+                                     planar ? 0 : v.z + quadratic(q, 0.8)};
             }
     const WendlandC2 kernel{1.3 * spacing, planar};
     const Vec3 corner = (half + 6 * spacing) * Vec3{1, 1, 1};
@@ -66,7 +67,8 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
     numerics.planar = planar;
     numerics.reference_speed = 1;
     numerics.shift = 0;
-    const auto scheme = make_flow_scheme(precision, {fluid, wall, ends, frame, [](const Vec3&) { return -1.0; }}, material, numerics);
+    const auto scheme =
+        make_flow_scheme(precision, {fluid, wall, ends, frame, [](const Vec3&) { return -1.0; }}, material, numerics);
     scheme->step(0, 1e-15);
 
     const double trace = planar ? bend_u.x.x + bend_u.y.y : bend_u.x.x + bend_u.y.y + bend_u.z.z;
@@ -77,7 +79,8 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
         const Vec3& x = fluid.position[i];
         const double inside = half - std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
         if (inside < kernel.support() + spacing) continue;
-        errors.gradient = std::max(errors.gradient, norm(fluid.pressure_gradient[i] - exact_gradient) / norm(exact_gradient));
+        errors.gradient =
+            std::max(errors.gradient, norm(fluid.pressure_gradient[i] - exact_gradient) / norm(exact_gradient));
         const Vec3 laplacian = fluid.slow_acceleration[i] / material.kinematic_viscosity();
         errors.laplacian = std::max(errors.laplacian, norm(laplacian - exact_laplacian) / norm(exact_laplacian));
     }
@@ -91,7 +94,8 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
         const Vec3 v = linear * (fluid.position[i] / half);
         other.velocity[i] = {v.x, v.y, planar ? 0 : v.z};
     }
-    const auto again = make_flow_scheme(precision, {other, wall, ends, frame, [](const Vec3&) { return -1.0; }}, material, numerics);
+    const auto again =
+        make_flow_scheme(precision, {other, wall, ends, frame, [](const Vec3&) { return -1.0; }}, material, numerics);
     again->step(0, 1e-15);
     const double exact = (linear.x.x + linear.y.y + (planar ? 0 : linear.z.z)) / half;
     for (std::size_t i = 0; i < other.size(); ++i) {
@@ -109,17 +113,20 @@ void operator_figures(const Results&, FigureList& figures) {
             Errors worst;
             for (const bool planar : {true, false}) {
                 const Errors e = measure_operators(precision, planar, is_disordered);
-                worst = {std::max(worst.gradient, e.gradient), std::max(worst.divergence, e.divergence), std::max(worst.laplacian, e.laplacian)};
+                worst = {std::max(worst.gradient, e.gradient), std::max(worst.divergence, e.divergence),
+                         std::max(worst.laplacian, e.laplacian)};
             }
-            const std::string tail = std::string(is_disordered ? "_disordered" : "") + (precision == Precision::mixed ? "_single" : "");
+            const std::string tail =
+                std::string(is_disordered ? "_disordered" : "") + (precision == Precision::mixed ? "_single" : "");
             const Bar bar{precision == Precision::mixed ? 1e-5 : 1e-10};
             figures.add({"gradient_error" + tail, "1", bar}, {}, [&] { return worst.gradient; });
             figures.add({"divergence_error" + tail, "1", bar}, {}, [&] { return worst.divergence; });
-            figures.add({"laplacian_error" + tail, "1", is_disordered ? std::nullopt : std::optional(bar)}, {}, [&] { return worst.laplacian; });
+            figures.add({"laplacian_error" + tail, "1", is_disordered ? std::nullopt : std::optional(bar)}, {},
+                        [&] { return worst.laplacian; });
         }
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<VerifyCase> operator_cases() {
     return {{.name = "lattice_operators",
@@ -130,4 +137,4 @@ std::vector<VerifyCase> operator_cases() {
              .pictures = {}}};
 }
 
-}  // namespace patency
+}   // namespace patency

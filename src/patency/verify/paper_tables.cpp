@@ -47,17 +47,21 @@ constexpr Row table_six[] = {
     {"Ratio of gauge pressures (called FFR there)", "0.45", "0.91", nullptr, "/gauge_pressure_ratio", 1},
 };
 
-std::string shown(const Figures& figures, const std::string& pointer, double sign) { return figures.has(pointer) ? fmt::format("{:.3f}", sign * figures.value(pointer)) : "–"; }
+std::string shown(const Figures& figures, const std::string& pointer, double sign) {
+    return figures.has(pointer) ? fmt::format("{:.3f}", sign * figures.value(pointer)) : "–";
+}
 
 }   // namespace
 
 std::string paper_figures_table(std::span<const CaseReport> reports) {
-    std::string text = "| Case | Figure | Unit | The paper prints | Its scheme, run here | patency |\n|---|---|---|---|---|---|\n";
+    std::string text =
+        "| Case | Figure | Unit | The paper prints | Its scheme, run here | patency |\n|---|---|---|---|---|---|\n";
     for (const CaseReport& report : reports)
         for (const Figure& figure : report.figures) {
             if (!figure.key.starts_with(printed)) continue;
             const std::string key = figure.key.substr(printed.size());
-            text += fmt::format("| [{0}](#{0}) | `{1}` | {2} | {3} | {4} | {5} |\n", report.name, key, figure.unit, cell(&figure), cell(find(report, std::string(scheme) + key)), cell(find(report, key)));
+            text += fmt::format("| [{0}](#{0}) | `{1}` | {2} | {3} | {4} | {5} |\n", report.name, key, figure.unit,
+                                cell(&figure), cell(find(report, std::string(scheme) + key)), cell(find(report, key)));
         }
     return text;
 }
@@ -68,9 +72,13 @@ std::string paper_table_six(const Json& run) {
     std::string text = "| Quantity | The paper: before | after | patency: before | after |\n|---|---|---|---|---|\n";
     for (const Row& row : table_six) {
         std::string before, after;
-        if (row.opening) before = std::string("/before/openings/") + row.opening, after = std::string("/after/openings/") + row.opening;
-        else if (worst) before = "/before/lesions" + step(*worst), after = "/after/at_lesions" + step(*worst);
-        text += fmt::format("| {} | {} | {} | {} | {} |\n", row.what, row.before, row.after, shown(figures, before + row.key, row.sign), shown(figures, after + row.key, row.sign));
+        if (row.opening)
+            before = std::string("/before/openings/") + row.opening,
+            after = std::string("/after/openings/") + row.opening;
+        else if (worst)
+            before = "/before/lesions" + step(*worst), after = "/after/at_lesions" + step(*worst);
+        text += fmt::format("| {} | {} | {} | {} | {} |\n", row.what, row.before, row.after,
+                            shown(figures, before + row.key, row.sign), shown(figures, after + row.key, row.sign));
     }
     return text;
 }

@@ -22,7 +22,8 @@ constexpr double wall_layer = 3;   // spacings from the wall over which a parabo
 void add_wall_layer(const Scene& scene, const StraightAxis& axis, double weight, WallFit& fit) {
     const double radius = axis.outline.front().radius, depth = wall_layer * scene.numerics.spacing;
     for_each_near_middle(scene, axis, 0.25 * axis.length, [&](std::size_t i, double, double r) {
-        if (const double s = radius - r; s > 0 && s < depth) fit.add(s, dot(scene.fluid.velocity[i], axis.direction), weight);
+        if (const double s = radius - r; s > 0 && s < depth)
+            fit.add(s, dot(scene.fluid.velocity[i], axis.direction), weight);
     });
 }
 
@@ -33,10 +34,12 @@ const std::array reynolds = {std::string("re100"), std::string("re400")};
 
 void measure_pipe(Scene& scene, const RunContext& context, RunData& data) {
     const StraightAxis axis = axis_of(scene);
-    const double radius = axis.outline.front().radius, area = std::numbers::pi * radius * radius, mu = scene.material.viscosity;
+    const double radius = axis.outline.front().radius, area = std::numbers::pi * radius * radius,
+                 mu = scene.material.viscosity;
     const deck::Opening &inlet = scene.config.openings.at("inlet"), &outlet = scene.config.openings.at("outlet");
     const double exact_flow =
-        inlet.pressure ? pipe_flow({radius, (*inlet.pressure - outlet.pressure.value_or(0)) / axis.length}, mu) : *inlet.velocity * area;
+        inlet.pressure ? pipe_flow({radius, (*inlet.pressure - outlet.pressure.value_or(0)) / axis.length}, mu)
+                       : *inlet.velocity * area;
     const double until = scene.config.numerics.duration;
     run_until(scene, context, 0.6 * until);
     TimeMean gradient;
@@ -78,14 +81,17 @@ void pipe_figures(const Results& results, FigureList& figures) {
                 pressure.push_back(tilt + "pressure_" + re + "_" + d);
                 velocity.push_back(tilt + "velocity_" + re + "_" + d);
             }
-        figures.add({"flow_error_percent_" + d, "percent", bar}, pressure,
-                    [&] { return worst_of(pressure, [&](const std::string& run) { return error_percent(results[run], "flow"); }); });
-        figures.add({"gradient_error_percent_" + d, "percent", bar}, velocity,
-                    [&] { return worst_of(velocity, [&](const std::string& run) { return error_percent(results[run], "gradient"); }); });
+        figures.add({"flow_error_percent_" + d, "percent", bar}, pressure, [&] {
+            return worst_of(pressure, [&](const std::string& run) { return error_percent(results[run], "flow"); });
+        });
+        figures.add({"gradient_error_percent_" + d, "percent", bar}, velocity, [&] {
+            return worst_of(velocity, [&](const std::string& run) { return error_percent(results[run], "gradient"); });
+        });
         std::vector<std::string> all = pressure;
         all.insert(all.end(), velocity.begin(), velocity.end());
-        figures.add({"wss_error_percent_" + d, "percent", d == "d20" ? std::optional(Bar{3.0}) : std::nullopt}, all,
-                    [&] { return worst_of(all, [&](const std::string& run) { return error_percent(results[run], "wss"); }); });
+        figures.add(
+            {"wss_error_percent_" + d, "percent", d == "d20" ? std::optional(Bar{3.0}) : std::nullopt}, all,
+            [&] { return worst_of(all, [&](const std::string& run) { return error_percent(results[run], "wss"); }); });
     }
     // The tilt is compared at the finest spacing at which it was run.
     const std::string d = results.was_tried("tilted_pressure_re100_d20") ? "d20" : "d12";
@@ -102,7 +108,8 @@ void pipe_figures(const Results& results, FigureList& figures) {
     });
     for (const std::string& run : all) {
         const std::string name = run.find("pressure") != std::string::npos ? "flow" : "gradient";
-        figures.add({name + "_error_percent_" + run, "percent", {}}, {run}, [&] { return error_percent(results[run], name); });
+        figures.add({name + "_error_percent_" + run, "percent", {}}, {run},
+                    [&] { return error_percent(results[run], name); });
     }
 }
 
@@ -116,7 +123,8 @@ std::vector<Picture> pipe_pictures(const Results& results) {
             const std::string run = "pressure_" + re + "_" + d;
             if (!results.has(run)) continue;
             const RunData& r = results[run];
-            const double radius = r.number("radius"), peak = 2 * r.number("exact_flow") / (std::numbers::pi * radius * radius);
+            const double radius = r.number("radius"),
+                         peak = 2 * r.number("exact_flow") / (std::numbers::pi * radius * radius);
             Curve curve{"Re " + re.substr(2) + ", D/" + d.substr(1), {}, {}, true};
             for (std::size_t k = 0; k < r.list("stations").size(); ++k) {
                 curve.x.push_back(r.list("stations")[k] / radius);
@@ -175,7 +183,9 @@ void measure_womersley(Scene& scene, const RunContext& context, RunData& data) {
     put_number(data, "angular_frequency", omega);
 }
 
-std::complex<double> complex_of(const RunData& run, const std::string& name) { return {run.list(name).at(0), run.list(name).at(1)}; }
+std::complex<double> complex_of(const RunData& run, const std::string& name) {
+    return {run.list(name).at(0), run.list(name).at(1)};
+}
 
 /// Bars in percent of the amplitudes.
 void add_womersley_figures(const Results& results, FigureList& figures, double flow_bar, double stress_bar) {
@@ -184,17 +194,23 @@ void add_womersley_figures(const Results& results, FigureList& figures, double f
         return complex_of(results[run], name) / complex_of(results[run], "exact_" + name);
     };
     const auto amplitude_error = [&](const std::string& name) {
-        return [&, name] { return worst_of(runs, [&](const std::string& run) { return 100 * std::abs(std::abs(off(run, name)) - 1); }); };
+        return [&, name] {
+            return worst_of(runs, [&](const std::string& run) { return 100 * std::abs(std::abs(off(run, name)) - 1); });
+        };
     };
     figures.add({"flow_amplitude_error_percent", "percent", Bar{flow_bar}}, runs, amplitude_error("flow"));
     figures.add({"flow_phase_error_deg", "deg", Bar{3.0}}, runs, [&] {
-        return worst_of(runs, [&](const std::string& run) { return std::abs(std::arg(off(run, "flow"))) * 180 / std::numbers::pi; });
+        return worst_of(runs, [&](const std::string& run) {
+            return std::abs(std::arg(off(run, "flow"))) * 180 / std::numbers::pi;
+        });
     });
     figures.add({"wss_amplitude_error_percent", "percent", Bar{stress_bar}}, runs, amplitude_error("stress"));
 }
 
 void womersley_figures(const Results& results, FigureList& figures) { add_womersley_figures(results, figures, 2, 4); }
-void cells_womersley_figures(const Results& results, FigureList& figures) { add_womersley_figures(results, figures, 1, 2); }
+void cells_womersley_figures(const Results& results, FigureList& figures) {
+    add_womersley_figures(results, figures, 1, 2);
+}
 
 std::vector<Picture> womersley_pictures(const Results& results) {
     std::vector<Picture> pictures;
@@ -203,15 +219,17 @@ std::vector<Picture> womersley_pictures(const Results& results) {
         const RunData& r = results[run];
         const std::complex<double> exact = complex_of(r, "exact_flow");
         const double omega = r.number("angular_frequency");
-        Curve computed{"computed", r.list("times"), r.list("flows"), true}, closed{"closed form", r.list("times"), {}, false};
+        Curve computed{"computed", r.list("times"), r.list("flows"), true},
+            closed{"closed form", r.list("times"), {}, false};
         for (double& q : computed.y) q *= 6e7;
         for (const double t : r.list("times")) closed.y.push_back(6e7 * (exact * std::polar(1.0, omega * t)).real());
-        pictures.push_back({"womersley_" + run, "Flow over the last period, " + run, format_plot({"t [s]", "Q [mL/min]", {closed, computed}})});
+        pictures.push_back({"womersley_" + run, "Flow over the last period, " + run,
+                            format_plot({"t [s]", "Q [mL/min]", {closed, computed}})});
     }
     return pictures;
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<VerifyCase> pipe_cases() {
     return {
@@ -236,4 +254,4 @@ std::vector<VerifyCase> pipe_cases() {
     };
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -16,10 +16,10 @@ namespace patency {
 
 namespace {
 
-constexpr std::array startup_times = {0.02, 0.05, 0.1, 0.2, 0.5};         // nu t / d^2
-constexpr std::array channel_peaks = {1.1, 1.2, 1.3, 1.4, 1.4999};        // u_max / U at t1 .. t5
-constexpr std::array paper_steady = {6.31, 3.87, 3.40};                   // RMSEP [%] at d/12, d/25, d/50
-constexpr std::array paper_channel = {2.83, 1.65, 4.60, 4.06, 2.03};      // RMSEP [%] at t1 .. t5
+constexpr std::array startup_times = {0.02, 0.05, 0.1, 0.2, 0.5};      // nu t / d^2
+constexpr std::array channel_peaks = {1.1, 1.2, 1.3, 1.4, 1.4999};     // u_max / U at t1 .. t5
+constexpr std::array paper_steady = {6.31, 3.87, 3.40};                // RMSEP [%] at d/12, d/25, d/50
+constexpr std::array paper_channel = {2.83, 1.65, 4.60, 4.06, 2.03};   // RMSEP [%] at t1 .. t5
 const std::array spacings = {std::string("d12"), std::string("d25"), std::string("d50")};
 
 std::string at(double time) { return fmt::format("{:g}", time); }
@@ -44,8 +44,8 @@ void put_profile(RunData& data, const std::string& name, const ProfileFit& fit, 
     for (const double y : fit.stations()) values.push_back(exact(y));
 }
 
-
-Curve curve_of(const RunData& run, const std::string& list, const std::string& label, double length, double speed, bool is_dotted) {
+Curve curve_of(const RunData& run, const std::string& list, const std::string& label, double length, double speed,
+               bool is_dotted) {
     Curve curve{label, {}, {}, is_dotted};
     for (std::size_t k = 0; k < run.list("stations").size(); ++k) {
         curve.x.push_back(run.list("stations")[k] / length);
@@ -96,16 +96,18 @@ void poiseuille_figures(const Results& results, FigureList& figures) {
         const bool ours = prefix.empty();
         for (std::size_t k = 0; k < spacings.size(); ++k) {
             const std::string run = prefix + spacings[k];
-            figures.add({prefix + "rmsep_percent_" + spacings[k], "percent", ours ? std::optional(Bar{bars[k]}) : std::nullopt}, {run},
-                        [&] { return steady_rmsep(results[run]); });
-            figures.add({prefix + "l2_percent_" + spacings[k], "percent", {}}, {run}, [&] { return steady_l2(results[run]); });
+            figures.add(
+                {prefix + "rmsep_percent_" + spacings[k], "percent", ours ? std::optional(Bar{bars[k]}) : std::nullopt},
+                {run}, [&] { return steady_rmsep(results[run]); });
+            figures.add({prefix + "l2_percent_" + spacings[k], "percent", {}}, {run},
+                        [&] { return steady_l2(results[run]); });
         }
         const std::string coarse = prefix + "d12", fine = prefix + "d50", startup = prefix + "startup_d25";
-        figures.add({prefix + "order", "1", ours ? std::optional(Bar{1.5, Sense::at_least}) : std::nullopt}, {coarse, fine}, [&] {
-            return observed_order(steady_l2(results[coarse]), 1.0 / 12, steady_l2(results[fine]), 1.0 / 50);
-        });
-        figures.add({prefix + "l2_startup_percent_d25", "percent", ours ? std::optional(Bar{1.5}) : std::nullopt}, {startup},
-                    [&] { return worst_startup_l2(results[startup]); });
+        figures.add(
+            {prefix + "order", "1", ours ? std::optional(Bar{1.5, Sense::at_least}) : std::nullopt}, {coarse, fine},
+            [&] { return observed_order(steady_l2(results[coarse]), 1.0 / 12, steady_l2(results[fine]), 1.0 / 50); });
+        figures.add({prefix + "l2_startup_percent_d25", "percent", ours ? std::optional(Bar{1.5}) : std::nullopt},
+                    {startup}, [&] { return worst_startup_l2(results[startup]); });
         for (const double time : startup_times)
             figures.add({fmt::format("{}l2_startup_percent_d25_at_{:g}", prefix, time), "percent", {}}, {startup},
                         [&] { return startup_l2(results[startup], time); });
@@ -120,11 +122,15 @@ std::vector<Picture> poiseuille_pictures(const Results& results) {
     for (const std::string& run : {spacings[2], spacings[1], spacings[0]}) {
         if (!results.has(run)) continue;
         const RunData& r = results[run];
-        if (steady.curves.empty()) steady.curves.push_back(curve_of(r, "exact_steady", "closed form", r.number("gap"), r.number("peak"), false));
-        steady.curves.push_back(curve_of(r, "velocity_steady", "dp = d/" + run.substr(1), r.number("gap"), r.number("peak"), true));
+        if (steady.curves.empty())
+            steady.curves.push_back(
+                curve_of(r, "exact_steady", "closed form", r.number("gap"), r.number("peak"), false));
+        steady.curves.push_back(
+            curve_of(r, "velocity_steady", "dp = d/" + run.substr(1), r.number("gap"), r.number("peak"), true));
     }
     if (!steady.curves.empty())
-        pictures.push_back({"poiseuille_steady", "Steady profile at three spacings (the paper's figure 5)", format_plot(steady)});
+        pictures.push_back(
+            {"poiseuille_steady", "Steady profile at three spacings (the paper's figure 5)", format_plot(steady)});
     Plot startup{"y / d", "u / u_max", {}};
     if (results.has("startup_d25")) {
         const RunData& r = results["startup_d25"];
@@ -134,8 +140,10 @@ std::vector<Picture> poiseuille_pictures(const Results& results) {
             startup.curves.push_back(std::move(exact));
         }
         for (const double time : startup_times)
-            startup.curves.push_back(curve_of(r, "velocity_" + at(time), "nu t/d^2 = " + at(time), r.number("gap"), r.number("peak"), true));
-        pictures.push_back({"poiseuille_startup", "Start-up from rest at d/25 (the paper's figure 4)", format_plot(startup)});
+            startup.curves.push_back(
+                curve_of(r, "velocity_" + at(time), "nu t/d^2 = " + at(time), r.number("gap"), r.number("peak"), true));
+        pictures.push_back(
+            {"poiseuille_startup", "Start-up from rest at d/25 (the paper's figure 4)", format_plot(startup)});
     }
     return pictures;
 }
@@ -148,19 +156,24 @@ void measure_pressure_driven(Scene& scene, const RunContext& context, RunData& d
     TimeMean mean;
     run_until(scene, context, 0.7 * until);
     const StraightAxis axis = axis_of(scene);
-    run_until(scene, context, until, [&](const Scene& now, double dt) { mean.add(mean_velocity_in_middle(now, axis) * gap, dt); });
+    run_until(scene, context, until,
+              [&](const Scene& now, double dt) { mean.add(mean_velocity_in_middle(now, axis) * gap, dt); });
     put_number(data, "flow", mean.value());
     put_number(data, "exact_flow", plane_poiseuille_peak(flow) * 2 / 3 * gap);
 }
 
 void pressure_driven_figures(const Results& results, FigureList& figures) {
-    const auto relative_flow = [&](const std::string& run) { return results[run].number("flow") / results[run].number("exact_flow"); };
-    figures.add({"flow_error_percent_d25", "percent", Bar{1.0}}, {"d25"}, [&] { return 100 * std::abs(relative_flow("d25") - 1); });
+    const auto relative_flow = [&](const std::string& run) {
+        return results[run].number("flow") / results[run].number("exact_flow");
+    };
+    figures.add({"flow_error_percent_d25", "percent", Bar{1.0}}, {"d25"},
+                [&] { return 100 * std::abs(relative_flow("d25") - 1); });
     figures.add({"offset_change_percent", "percent", Bar{0.1}}, {"d25", "offset"},
                 [&] { return 100 * std::abs(relative_flow("offset") - relative_flow("d25")); });
     figures.add({"offset_change_frozen_percent", "percent", Bar{1.0}}, {"d25", "offset_frozen"},
                 [&] { return 100 * std::abs(relative_flow("offset_frozen") - relative_flow("d25")); });
-    figures.add({"paper_flow_error_percent_d25", "percent", {}}, {"paper_d25"}, [&] { return 100 * std::abs(relative_flow("paper_d25") - 1); });
+    figures.add({"paper_flow_error_percent_d25", "percent", {}}, {"paper_d25"},
+                [&] { return 100 * std::abs(relative_flow("paper_d25") - 1); });
 }
 
 // Blood that thins, between two pressures
@@ -195,10 +208,12 @@ void thinning_figures(const Results& results, FigureList& figures) {
     }
     figures.add({"rmsep_percent_d12", "percent", Bar{2.5}}, {"d12"}, [&] { return steady_rmsep(results["d12"]); });
     figures.add({"rmsep_percent_d50", "percent", Bar{0.5}}, {"d50"}, [&] { return steady_rmsep(results["d50"]); });
-    figures.add({"order", "1", Bar{1.5, Sense::at_least}}, {"d12", "d50"},
-                [&] { return observed_order(steady_l2(results["d12"]), 1.0 / 12, steady_l2(results["d50"]), 1.0 / 50); });
+    figures.add({"order", "1", Bar{1.5, Sense::at_least}}, {"d12", "d50"}, [&] {
+        return observed_order(steady_l2(results["d12"]), 1.0 / 12, steady_l2(results["d50"]), 1.0 / 50);
+    });
     figures.add({"paper_flow_error_percent", "percent", {}}, {"paper_d25"}, [&] { return flow_error("paper_d25"); });
-    figures.add({"paper_rmsep_percent", "percent", {}}, {"paper_d25"}, [&] { return steady_rmsep(results["paper_d25"]); });
+    figures.add({"paper_rmsep_percent", "percent", {}}, {"paper_d25"},
+                [&] { return steady_rmsep(results["paper_d25"]); });
 }
 
 std::vector<Picture> thinning_pictures(const Results& results) {
@@ -208,7 +223,8 @@ std::vector<Picture> thinning_pictures(const Results& results) {
             if (!results.has(run)) continue;
             const RunData& r = results[run];
             const std::string label = !is_exact ? run : plot.curves.empty() ? "closed forms" : "";
-            plot.curves.push_back(curve_of(r, is_exact ? "exact_steady" : "velocity_steady", label, r.number("gap"), r.number("peak"), !is_exact));
+            plot.curves.push_back(curve_of(r, is_exact ? "exact_steady" : "velocity_steady", label, r.number("gap"),
+                                           r.number("peak"), !is_exact));
         }
     if (plot.curves.empty()) return {};
     return {{"thinning_profiles", "Profiles of three laws at d/25", format_plot(plot)}};
@@ -227,7 +243,8 @@ void measure_channel(Scene& scene, const RunContext& context, RunData& data) {
         run_until(scene, context, time * unit);
         ProfileFit fit = make_plane_fit(scene);
         add_plane_profile(scene, 4, 1, fit);
-        put_profile(data, fmt::format("t{}", k + 1), fit, [&](double y) { return speed * plug_start_velocity(y / half - 1, time); });
+        put_profile(data, fmt::format("t{}", k + 1), fit,
+                    [&](double y) { return speed * plug_start_velocity(y / half - 1, time); });
         if (k != 0 && k + 1 != channel_peaks.size()) continue;
         for (const char* name : {"x", "y", "u"}) data.lists[fmt::format("field_t{}_{}", k + 1, name)].clear();
         for (std::size_t i = 0; i < scene.fluid.size(); ++i) {
@@ -243,13 +260,16 @@ void measure_channel(Scene& scene, const RunContext& context, RunData& data) {
 void channel_figures(const Results& results, FigureList& figures) {
     for (const std::string prefix : {"", "paper_"})
         for (std::size_t k = 1; k <= channel_peaks.size(); ++k)
-            figures.add({fmt::format("{}rmsep_percent_t{}", prefix, k), "percent", prefix.empty() ? std::optional(Bar{1.0}) : std::nullopt},
+            figures.add({fmt::format("{}rmsep_percent_t{}", prefix, k), "percent",
+                         prefix.empty() ? std::optional(Bar{1.0}) : std::nullopt},
                         {prefix + "h25"}, [&] {
                             const RunData& r = results[prefix + "h25"];
-                            return rmsep_percent(r.list(fmt::format("velocity_t{}", k)), r.list(fmt::format("exact_t{}", k)));
+                            return rmsep_percent(r.list(fmt::format("velocity_t{}", k)),
+                                                 r.list(fmt::format("exact_t{}", k)));
                         });
     for (std::size_t k = 0; k < paper_channel.size(); ++k)
-        figures.add({fmt::format("paper_printed_rmsep_percent_t{}", k + 1), "percent", {}}, {}, [&] { return paper_channel[k]; });
+        figures.add({fmt::format("paper_printed_rmsep_percent_t{}", k + 1), "percent", {}}, {},
+                    [&] { return paper_channel[k]; });
 }
 
 std::vector<Picture> channel_pictures(const Results& results) {
@@ -258,13 +278,18 @@ std::vector<Picture> channel_pictures(const Results& results) {
     const RunData& r = results["h25"];
     const double speed = r.number("speed"), half = r.number("half_gap");
     Plot plot{"y / h", "u / U", {}};
-    for (int k = 1; k <= 5; ++k) plot.curves.push_back(curve_of(r, fmt::format("exact_t{}", k), k == 1 ? "closed form" : "", half, speed, false));
-    for (int k = 1; k <= 5; ++k) plot.curves.push_back(curve_of(r, fmt::format("velocity_t{}", k), fmt::format("t{}", k), half, speed, true));
+    for (int k = 1; k <= 5; ++k)
+        plot.curves.push_back(
+            curve_of(r, fmt::format("exact_t{}", k), k == 1 ? "closed form" : "", half, speed, false));
+    for (int k = 1; k <= 5; ++k)
+        plot.curves.push_back(curve_of(r, fmt::format("velocity_t{}", k), fmt::format("t{}", k), half, speed, true));
     pictures.push_back({"channel_profiles", "Profiles at t1 to t5, started as a plug", format_plot(plot)});
     for (const int k : {1, 5})
-        pictures.push_back({fmt::format("channel_field_t{}", k), fmt::format("Speed of the particles at t{} (the paper's figure {})", k, k == 1 ? 6 : 7),
+        pictures.push_back({fmt::format("channel_field_t{}", k),
+                            fmt::format("Speed of the particles at t{} (the paper's figure {})", k, k == 1 ? 6 : 7),
                             format_field({r.list(fmt::format("field_t{}_x", k)), r.list(fmt::format("field_t{}_y", k)),
-                                          r.list(fmt::format("field_t{}_u", k)), r.number("spacing"), 0, 1.5 * speed, "speed [m/s]"})});
+                                          r.list(fmt::format("field_t{}_u", k)), r.number("spacing"), 0, 1.5 * speed,
+                                          "speed [m/s]"})});
     return pictures;
 }
 
@@ -283,7 +308,8 @@ void measure_taylor_green(Scene& scene, const RunContext& context, RunData& data
         }
         times.push_back(now.time);
         energies.push_back(0.5 * energy / double(now.fluid.size()));
-        drift = std::max(drift, std::abs(pressure / double(now.fluid.size())) / (exact.density * exact.speed * exact.speed));
+        drift = std::max(drift,
+                         std::abs(pressure / double(now.fluid.size())) / (exact.density * exact.speed * exact.speed));
     };
     record(scene, 0);
     run_until(scene, context, 2 * exact.length / exact.speed, record);
@@ -296,10 +322,11 @@ void taylor_green_figures(const Results& results, FigureList& figures) {
         const RunData& r = results["l50"];
         return 100 * std::abs(decay_rate(r.list("times"), r.list("energies")) / r.number("exact_rate") - 1);
     });
-    figures.add({"pressure_drift_percent", "percent", Bar{1.0}}, {"l50"}, [&] { return 100 * results["l50"].number("pressure_drift"); });
+    figures.add({"pressure_drift_percent", "percent", Bar{1.0}}, {"l50"},
+                [&] { return 100 * results["l50"].number("pressure_drift"); });
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<VerifyCase> plane_cases() {
     return {
@@ -336,4 +363,4 @@ std::vector<VerifyCase> plane_cases() {
     };
 }
 
-}  // namespace patency
+}   // namespace patency

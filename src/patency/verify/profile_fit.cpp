@@ -60,4 +60,4 @@ double WallFit::slope() const {
     return (f1 * s4 - f2 * s3) / det;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -38,4 +38,4 @@ private:
     std::array<double, 5> sums_{};   // w s^2, s^3, s^4, w f s, w f s^2
 };
 
-}  // namespace patency
+}   // namespace patency

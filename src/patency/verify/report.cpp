@@ -22,19 +22,24 @@ constexpr const char* table_six_file = "stented_bifurcation.summary.json";
 std::string table_of(const CaseReport& report) {
     std::string text = "| Figure | Value | Unit | Bar | |\n|---|---|---|---|---|\n";
     for (const Figure& f : report.figures)
-        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, f.value ? fmt::format("{:.4g}", *f.value) : "none: " + f.reason, f.unit,
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key,
+                            f.value ? fmt::format("{:.4g}", *f.value) : "none: " + f.reason, f.unit,
                             f.bar ? fmt::format("{} {:g}", word_of(f.bar->sense), f.bar->limit) : "",
-                            !f.bar ? "" : f.passes() ? "met" : "**missed**");
+                            !f.bar       ? ""
+                            : f.passes() ? "met"
+                                         : "**missed**");
     return text;
 }
 
 std::string runs_of(const Json& timing) {
     if (!timing.contains("runs")) return "";
-    std::string text = timing.contains("date") ? fmt::format("\nRun on {}.\n", timing.at("date").get<std::string>()) : "";
+    std::string text =
+        timing.contains("date") ? fmt::format("\nRun on {}.\n", timing.at("date").get<std::string>()) : "";
     text += "\n| Run | Particles | Acoustic steps | CPU time [s] | Wall time [s] |\n|---|---|---|---|---|\n";
     for (const auto& [name, run] : timing.at("runs").items())
         text += fmt::format("| {} | {} | {} | {:.1f} | {:.1f} |\n", name, run.at("particles").get<std::int64_t>(),
-                            run.at("acoustic_steps").get<std::int64_t>(), run.at("cpu_s").get<double>(), run.at("wall_s").get<double>());
+                            run.at("acoustic_steps").get<std::int64_t>(), run.at("cpu_s").get<double>(),
+                            run.at("wall_s").get<double>());
     return text;
 }
 
@@ -60,24 +65,26 @@ void keep(const fs::path& out, const fs::path& run, const fs::path& kept) {
     if (!run.empty()) write_file(kept / table_six_file, read_file(run / "summary.json"));
 }
 
-}  // namespace
+}   // namespace
 
 void write_verification_report(const fs::path& out, const fs::path& document, const fs::path& run) {
     const fs::path kept = document.parent_path() / "verification";
     keep(out, run, kept);
     std::vector<CaseReport> reports;
-    std::string body, summary = "| Case | What | Level | Particles | Bars met | CPU time [s] |\n|---|---|---|---|---|---|\n";
+    std::string body,
+        summary = "| Case | What | Level | Particles | Bars met | CPU time [s] |\n|---|---|---|---|---|---|\n";
     for (const VerifyCase& c : verification_cases()) {
         const fs::path file = kept / (c.name + ".json");
         if (!fs::exists(file)) continue;
         const CaseReport& report = reports.emplace_back(parse_report(read_file(file), file.string()));
         Json timing = Json::object();
-        if (fs::exists(kept / (c.name + ".timing.json"))) timing = Json::parse(read_file(kept / (c.name + ".timing.json")));
+        if (fs::exists(kept / (c.name + ".timing.json")))
+            timing = Json::parse(read_file(kept / (c.name + ".timing.json")));
         int bars = 0, met = 0;
         for (const Figure& f : report.figures)
             if (f.bar) bars += 1, met += f.passes();
-        summary += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} of {5} | {6:.0f} |\n", c.name, c.title, word_of(report.level),
-                               report.particles, met, bars, timing.value("cpu_s", 0.0));
+        summary += fmt::format("| [{0}](#{0}) | {1} | {2} | {3} | {4} of {5} | {6:.0f} |\n", c.name, c.title,
+                               word_of(report.level), report.particles, met, bars, timing.value("cpu_s", 0.0));
         body += fmt::format("\n## {}\n\n{}.\n\n", c.name, c.title) + table_of(report) + runs_of(timing);
         const fs::path captions = kept / (c.name + ".pictures.json");
         if (!fs::exists(captions)) continue;
@@ -86,16 +93,27 @@ void write_verification_report(const fs::path& out, const fs::path& document, co
             body += fmt::format("\n![{0}](verification/{1}.svg)\n\n*{0}.*\n", caption, name);
         }
     }
-    std::string paper = "\n## The reference paper's tables\n\nWhat arXiv 2511.08745 prints, what its scheme gives here (with its misprints mended), and ours.\n\n" + paper_figures_table(reports);
+    std::string paper =
+        "\n## The reference paper's tables\n\nWhat arXiv 2511.08745 prints, what its scheme gives here (with its "
+        "misprints mended), and ours.\n\n" +
+        paper_figures_table(reports);
     if (fs::exists(kept / table_six_file))
-        paper += "\nIts table VI, before and after the stent, beside `patency run cases/stented_bifurcation.yaml` (made by `--run OUT`). The stent is opened without mechanics; what\n"
-                 "the paper calls FFR is a ratio of pressures above the lowest outlet's.\n\n" + paper_table_six(read_summary(kept / table_six_file));
+        paper +=
+            "\nIts table VI, before and after the stent, beside `patency run cases/stented_bifurcation.yaml` (made by "
+            "`--run OUT`). The stent is opened without mechanics; what\n"
+            "the paper calls FFR is a ratio of pressures above the lowest outlet's.\n\n" +
+            paper_table_six(read_summary(kept / table_six_file));
     write_file(document,
-               "# Verification\n\nEvery case below has a known answer. The tables are written by `patency verify --level full -o out` and\n"
-               "`patency verify --report docs/VERIFICATION.md -o out`, which keeps what `out` does not have; decks are in `cases/verify/`, the closed forms in\n"
-               "[THEORY](THEORY.md) section 12, the measures of error in section 13. Keys that begin with `paper_` belong to the\n"
-               "reference paper's scheme, run here, and `paper_printed_` to the figures that the paper prints; they have no bar. Each case says\nwhen it was run, with the program of that day; times are of machines that other runs shared.\n\n" +
+               "# Verification\n\nEvery case below has a known answer. The tables are written by `patency verify "
+               "--level full -o out` and\n"
+               "`patency verify --report docs/VERIFICATION.md -o out`, which keeps what `out` does not have; decks are "
+               "in `cases/verify/`, the closed forms in\n"
+               "[THEORY](THEORY.md) section 12, the measures of error in section 13. Keys that begin with `paper_` "
+               "belong to the\n"
+               "reference paper's scheme, run here, and `paper_printed_` to the figures that the paper prints; they "
+               "have no bar. Each case says\nwhen it was run, with the program of that day; times are of machines that "
+               "other runs shared.\n\n" +
                    summary + paper + body);
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -46,4 +46,4 @@ std::optional<RunData> parse_run(const std::string& text) {
     }
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -12,8 +12,8 @@
 namespace patency {
 
 struct RunData {
-    std::string key;               ///< of deck and program: the run is valid for these only
-    std::string failure;           ///< why it ended early; empty: it did not
+    std::string key;       ///< of deck and program: the run is valid for these only
+    std::string failure;   ///< why it ended early; empty: it did not
     std::int64_t particles = 0, acoustic_steps = 0;
     double particle_steps = 0, cpu_s = 0, wall_s = 0;
     std::map<std::string, std::vector<double>> lists;
@@ -26,4 +26,4 @@ std::string format_run(const RunData& run);
 /// None if the text is not of a run (cut off, of another version): then the run is done again.
 std::optional<RunData> parse_run(const std::string& text);
 
-}  // namespace patency
+}   // namespace patency

@@ -37,12 +37,14 @@ std::vector<const VerifyCase*> choose_cases(const VerifyRequest& request) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             const std::string nearest = nearest_name(name, known);
             throw UsageError(fmt::format("there is no verification case {}{}; there are {}", name,
-                                         nearest.empty() ? "" : ", did you mean " + nearest + "?", join(known, ", ", " and ")));
+                                         nearest.empty() ? "" : ", did you mean " + nearest + "?",
+                                         join(known, ", ", " and ")));
         }
     std::vector<const VerifyCase*> chosen;
     for (const VerifyCase& c : verification_cases()) {
         const bool is_named = std::find(request.names.begin(), request.names.end(), c.name) != request.names.end();
-        if (is_named || (request.names.empty() && (c.level == Level::quick || request.level == Level::full))) chosen.push_back(&c);
+        if (is_named || (request.names.empty() && (c.level == Level::quick || request.level == Level::full)))
+            chosen.push_back(&c);
     }
     return chosen;
 }
@@ -57,7 +59,8 @@ public:
             make_folder(folder());
             const fs::path deck = request_.decks / (case_.name + ".yaml");
             for (const deck::NamedCase& run : deck::read_runs(deck, request_.settings))
-                if (request_.level == Level::full || !case_.is_full || !case_.is_full(run.name)) runs[run.name] = find_or_do(run);
+                if (request_.level == Level::full || !case_.is_full || !case_.is_full(run.name))
+                    runs[run.name] = find_or_do(run);
         }
         CaseReport report{.name = case_.name, .level = request_.level, .particles = 0, .figures = {}};
         nlohmann::ordered_json timing;
@@ -68,8 +71,11 @@ public:
             report.particles = std::max(report.particles, run.particles);
             timing["cpu_s"] = timing["cpu_s"].get<double>() + run.cpu_s;
             timing["wall_s"] = timing["wall_s"].get<double>() + run.wall_s;
-            timing["runs"][name] = {{"particles", run.particles}, {"acoustic_steps", run.acoustic_steps}, {"cpu_s", run.cpu_s},
-                                    {"wall_s", run.wall_s}, {"particle_steps_per_cpu_s", run.particle_steps / std::max(run.cpu_s, 1e-9)}};
+            timing["runs"][name] = {{"particles", run.particles},
+                                    {"acoustic_steps", run.acoustic_steps},
+                                    {"cpu_s", run.cpu_s},
+                                    {"wall_s", run.wall_s},
+                                    {"particle_steps_per_cpu_s", run.particle_steps / std::max(run.cpu_s, 1e-9)}};
         }
         const Results results(std::move(runs), request_.reference);
         FigureList figures(results);
@@ -119,7 +125,8 @@ private:
         const auto start = std::chrono::steady_clock::now();
         const auto stop_if_asked = [&] {
             if (request_.interrupted && request_.interrupted())
-                throw Error(ExitCode::interrupted, "the verification was interrupted; the same command goes on with it");
+                throw Error(ExitCode::interrupted,
+                            "the verification was interrupted; the same command goes on with it");
         };
         try {
             if (case_.measure_cells) {
@@ -139,7 +146,8 @@ private:
         return data;
     }
 
-    void measure_particles(const deck::NamedCase& named, const std::function<void()>& stop_if_asked, RunData& data) const {
+    void measure_particles(const deck::NamedCase& named, const std::function<void()>& stop_if_asked,
+                           RunData& data) const {
         const auto scene = build_scene(named.resolved);
         for (const std::int32_t opening : scene->fluid.opening) data.particles += opening == 0;
         std::int64_t steps = 0;
@@ -157,7 +165,7 @@ private:
     const VerifyCase& case_;
 };
 
-}  // namespace
+}   // namespace
 
 std::vector<CaseReport> run_verification(const VerifyRequest& request) {
     const auto cases = choose_cases(request);
@@ -167,4 +175,4 @@ std::vector<CaseReport> run_verification(const VerifyRequest& request) {
     return reports;
 }
 
-}  // namespace patency
+}   // namespace patency

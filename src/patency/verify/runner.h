@@ -16,18 +16,18 @@ namespace patency {
 /// What happens, for whoever shows it.
 struct VerifyProgress {
     std::string case_name, run_name;
-    double share = 0;                 ///< of the run's simulated time, 0..1
-    const RunData* done = nullptr;    ///< at the end of the run
+    double share = 0;                ///< of the run's simulated time, 0..1
+    const RunData* done = nullptr;   ///< at the end of the run
     bool is_reused = false;
 };
 
 struct VerifyRequest {
-    std::vector<std::string> names;          ///< empty: all
+    std::vector<std::string> names;   ///< empty: all
     Level level = Level::quick;
     std::filesystem::path out, decks, reference;   ///< reference: stored results of other programs, if there
-    std::string program;                     ///< a fingerprint of the program
-    std::vector<std::string> settings;       ///< key=value over every deck
-    bool fresh = false;                      ///< do all runs again
+    std::string program;                           ///< a fingerprint of the program
+    std::vector<std::string> settings;             ///< key=value over every deck
+    bool fresh = false;                            ///< do all runs again
     std::function<void(const VerifyProgress&)> report = {};
     std::function<bool()> interrupted = {};
 };
@@ -40,6 +40,7 @@ std::vector<CaseReport> run_verification(const VerifyRequest& request);
 /// docs/VERIFICATION.md: tables, times, pictures and the reference paper's tables, from the reports that lie beside it in `verification/`;
 /// those in the folder `out` are put there first. `run`: the folder of a run that stands beside the paper's table VI, or empty: the last one.
 /// @throws FileError.
-void write_verification_report(const std::filesystem::path& out, const std::filesystem::path& document, const std::filesystem::path& run);
+void write_verification_report(const std::filesystem::path& out, const std::filesystem::path& document,
+                               const std::filesystem::path& run);
 
-}  // namespace patency
+}   // namespace patency

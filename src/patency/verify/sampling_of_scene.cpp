@@ -76,4 +76,4 @@ double flow_through(const ProfileFit& fit, double radius) {
 
 void put_number(RunData& data, const std::string& name, double value) { data.lists[name] = {value}; }
 
-}  // namespace patency
+}   // namespace patency

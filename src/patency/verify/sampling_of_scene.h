@@ -24,7 +24,8 @@ template <class Visit>
 void for_each_near_middle(const Scene& scene, const StraightAxis& axis, double reach, Visit visit) {
     for (std::size_t i = 0; i < scene.fluid.size(); ++i) {
         const double along = axis.axial(scene.fluid.position[i]) - 0.5 * axis.length;
-        if (std::abs(along) < reach && scene.fluid.opening[i] == 0) visit(i, along, axis.radial(scene.fluid.position[i]));
+        if (std::abs(along) < reach && scene.fluid.opening[i] == 0)
+            visit(i, along, axis.radial(scene.fluid.position[i]));
     }
 }
 
@@ -58,4 +59,4 @@ private:
 
 void put_number(RunData& data, const std::string& name, double value);
 
-}  // namespace patency
+}   // namespace patency

@@ -59,7 +59,8 @@ private:
     }
 
     /// One round with the coefficients of the last one: w = base + G by_slope carries the flow.        THEORY (12.11)
-    double solve(const Numbers& w, const Numbers& q, const Numbers& rest, const Numbers& rest_q, double a, double dt, double widening) {
+    double solve(const Numbers& w, const Numbers& q, const Numbers& rest, const Numbers& rest_q, double a, double dt,
+                 double widening) {
         Numbers lower(n_), diagonal(n_), upper(n_), base(n_), by_slope(n_, 1.0);
         for (std::size_t j = 0; j < n_; ++j) {
             const double inner = double(j) * h_, outer = inner + h_, rise = (a * q[j] + rest_q[j]) / dt;   // q_t
@@ -69,9 +70,12 @@ private:
             lower[j] = -in, diagonal[j] = in + out, upper[j] = -out;
             if (is_last) lower[j] = -in - out / 3, diagonal[j] = in + 3 * out, upper[j] = 0;
             const double side = rise / (2 * h_);   // -q_t w_y
-            if (is_last) lower[j] += 2.0 / 3 * side, diagonal[j] += 2 * side;
-            else if (j == 0) upper[j] -= 2 * side, diagonal[j] += 2 * side;   // one-sided: q_t itself is small there
-            else upper[j] -= side, lower[j] += side;
+            if (is_last)
+                lower[j] += 2.0 / 3 * side, diagonal[j] += 2 * side;
+            else if (j == 0)
+                upper[j] -= 2 * side, diagonal[j] += 2 * side;   // one-sided: q_t itself is small there
+            else
+                upper[j] -= side, lower[j] += side;
             diagonal[j] += a * w[j] / dt - 2 * widening * w[j];
             base[j] = -w[j] * rest[j] / dt;
         }
@@ -108,16 +112,21 @@ double slender_tube_pressure_drop(const SlenderTube& tube, double from, double t
     const double nu = tube.viscosity / tube.density, unit = 4 * pi * nu / tube.flow;   // t = unit x
     const double dx = tube.length / grid.steps;
     March march(grid.rings);
-    const auto pressure_slope = [&](double x, double slope) { return 4 * tube.viscosity * tube.flow / pi * slope / std::pow(tube.radius(x), 4); };
+    const auto pressure_slope = [&](double x, double slope) {
+        return 4 * tube.viscosity * tube.flow / pi * slope / std::pow(tube.radius(x), 4);
+    };
     double drop = 0, last = 0;
     for (int k = 0; k <= grid.steps; ++k) {
         const double x = k * dx, small = 1e-4 * tube.length;
-        const double widening = (std::log(tube.radius(std::min(x + small, tube.length))) - std::log(tube.radius(std::max(x - small, 0.0)))) /
+        const double widening = (std::log(tube.radius(std::min(x + small, tube.length))) -
+                                 std::log(tube.radius(std::max(x - small, 0.0)))) /
                                 (std::min(x + small, tube.length) - std::max(x - small, 0.0)) / unit;
         // At the inlet as of a profile that has settled, which counts for half a step only.
-        const double now = k == 0 ? pressure_slope(0, 2 - 4 * widening) : pressure_slope(x, march.step(unit * dx, widening));
+        const double now =
+            k == 0 ? pressure_slope(0, 2 - 4 * widening) : pressure_slope(x, march.step(unit * dx, widening));
         if (k > 0) {   // the trapezoid's part between `from` and `to`
-            const double begin = std::clamp(from, x - dx, x), end = std::clamp(to, x - dx, x), s0 = (begin - x) / dx + 1, s1 = (end - x) / dx + 1;
+            const double begin = std::clamp(from, x - dx, x), end = std::clamp(to, x - dx, x),
+                         s0 = (begin - x) / dx + 1, s1 = (end - x) / dx + 1;
             drop += (s1 - s0) * dx * (last + 0.5 * (s0 + s1) * (now - last));
         }
         last = now;

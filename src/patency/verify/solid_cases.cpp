@@ -21,7 +21,8 @@ using std::numbers::pi;
 class Crossings {
 public:
     void look(double time, double value) {
-        if (is_started_ && (value > 0) != (last_ > 0)) times.push_back(time - (time - last_time_) * value / (value - last_));
+        if (is_started_ && (value > 0) != (last_ > 0))
+            times.push_back(time - (time - last_time_) * value / (value - last_));
         is_started_ = true, last_ = value, last_time_ = time;
     }
     std::vector<double> times;
@@ -37,7 +38,8 @@ void measure_beam(const deck::Case& config, const std::string&, const Stop& inte
     SolidParticles& p = plate.body->particles();
     const Vec3 tip = config.solids[0].shape.to;
     const Cantilever beam{tip.x, 2 * tip.y, plate.solid.materials[0].density, plate.solid.materials[0].moduli()};
-    const double omega = cantilever_frequency(beam), speed = 0.01 * omega * beam.height;   // swings by a hundredth of its height
+    const double omega = cantilever_frequency(beam),
+                 speed = 0.01 * omega * beam.height;   // swings by a hundredth of its height
     std::size_t watched = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (p.reference[i].x > 0) p.velocity[i] = {0, speed * cantilever_shape(beam, p.reference[i].x), 0};
@@ -68,13 +70,18 @@ double frequency_error(const RunData& run) {
 }
 
 void beam_figures(const Results& results, FigureList& figures) {
-    figures.add({"frequency_error_percent", "percent", Bar{3}}, {"n10"}, [&] { return frequency_error(results["n10"]); });
-    figures.add({"energy_drift_percent", "percent", Bar{1}}, {"n10"}, [&] { return results["n10"].number("drift_percent"); });
+    figures.add({"frequency_error_percent", "percent", Bar{3}}, {"n10"},
+                [&] { return frequency_error(results["n10"]); });
+    figures.add({"energy_drift_percent", "percent", Bar{1}}, {"n10"},
+                [&] { return results["n10"].number("drift_percent"); });
     figures.add({"periods", "1", Bar{10, Sense::at_least}}, {"n10"}, [&] { return results["n10"].number("periods"); });
     for (const std::string run : {"n6", "n20"})
-        figures.add({"frequency_error_percent_" + run, "percent", {}}, {run}, [&] { return frequency_error(results[run]); });
-    figures.add({"frequency_error_ratio_n10_n6", "1", Bar{1}}, {"n6", "n10"}, [&] { return frequency_error(results["n10"]) / frequency_error(results["n6"]); });
-    figures.add({"frequency_error_ratio_n20_n10", "1", Bar{1}}, {"n10", "n20"}, [&] { return frequency_error(results["n20"]) / frequency_error(results["n10"]); });
+        figures.add({"frequency_error_percent_" + run, "percent", {}}, {run},
+                    [&] { return frequency_error(results[run]); });
+    figures.add({"frequency_error_ratio_n10_n6", "1", Bar{1}}, {"n6", "n10"},
+                [&] { return frequency_error(results["n10"]) / frequency_error(results["n6"]); });
+    figures.add({"frequency_error_ratio_n20_n10", "1", Bar{1}}, {"n10", "n20"},
+                [&] { return frequency_error(results["n20"]) / frequency_error(results["n10"]); });
 }
 
 // Tubes in the plane.
@@ -144,10 +151,13 @@ void thick_tube_figures(const Results& results, FigureList& figures) {
         return std::max(largest_in(results["nu45_" + layers], list), largest_in(results["nu49_" + layers], list));
     };
     for (const auto& [layers, bar] : {std::pair{"4", 3.0}, std::pair{"8", 1.5}})
-        figures.add({std::string("curve_error_percent_") + layers, "percent", Bar{bar}}, {std::string("nu45_") + layers, std::string("nu49_") + layers},
+        figures.add({std::string("curve_error_percent_") + layers, "percent", Bar{bar}},
+                    {std::string("nu45_") + layers, std::string("nu49_") + layers},
                     [&, l = std::string(layers)] { return worst(l, "error_percent"); });
-    figures.add({"lame_stress_error_percent", "percent", Bar{4}}, {"nu45_8", "nu49_8"}, [&] { return worst("8", "lame_error_percent"); });
-    figures.add({"lame_stress_error_percent_4", "percent", {}}, {"nu45_4", "nu49_4"}, [&] { return worst("4", "lame_error_percent"); });
+    figures.add({"lame_stress_error_percent", "percent", Bar{4}}, {"nu45_8", "nu49_8"},
+                [&] { return worst("8", "lame_error_percent"); });
+    figures.add({"lame_stress_error_percent_4", "percent", {}}, {"nu45_4", "nu49_4"},
+                [&] { return worst("4", "lame_error_percent"); });
     figures.add({"largest_stretch", "1", {}}, {"nu45_8"}, [&] { return largest_in(results["nu45_8"], "stretch"); });
 }
 
@@ -190,10 +200,14 @@ void measure_plastic_tube(const deck::Case& config, const std::string& run, cons
 }
 
 void plastic_tube_figures(const Results& results, FigureList& figures) {
-    figures.add({"collapse_pressure_error_percent", "percent", Bar{4}}, {"collapse"}, [&] { return results["collapse"].number("collapse_error_percent"); });
-    figures.add({"least_plastic_strain", "1", {}}, {"collapse"}, [&] { return results["collapse"].number("least_plastic_strain"); });
-    figures.add({"residual_hoop_error_percent", "percent", Bar{10}}, {"residual"}, [&] { return results["residual"].number("hoop_error_percent"); });
-    figures.add({"loaded_over_collapse", "1", {}}, {"residual"}, [&] { return results["residual"].number("loaded_over_collapse"); });
+    figures.add({"collapse_pressure_error_percent", "percent", Bar{4}}, {"collapse"},
+                [&] { return results["collapse"].number("collapse_error_percent"); });
+    figures.add({"least_plastic_strain", "1", {}}, {"collapse"},
+                [&] { return results["collapse"].number("least_plastic_strain"); });
+    figures.add({"residual_hoop_error_percent", "percent", Bar{10}}, {"residual"},
+                [&] { return results["residual"].number("hoop_error_percent"); });
+    figures.add({"loaded_over_collapse", "1", {}}, {"residual"},
+                [&] { return results["residual"].number("loaded_over_collapse"); });
 }
 
 // The copper bar of Wilkins & Guinan (1973), 227 m/s, linear hardening: the foot's radius of the converged hexahedra of
@@ -226,10 +240,14 @@ void taylor_bar_figures(const Results& results, FigureList& figures) {
         const bool is_fine = run == "n16";
         const std::string tail = is_fine ? "" : "_" + run;
         const std::optional<Bar> bar = is_fine ? std::optional(Bar{5}) : std::nullopt;
-        figures.add({"length_error_percent" + tail, "percent", bar}, {run}, [&] { return error(results[run].number("length"), bar_length); });
-        figures.add({"foot_radius_error_percent" + tail, "percent", bar}, {run}, [&] { return error(results[run].number("radius"), bar_foot_radius); });
-        figures.add({"largest_plastic_strain" + tail, "1", {}}, {run}, [&] { return results[run].number("plastic_strain"); });
-        figures.add({"hourglass_over_plastic" + tail, "1", {}}, {run}, [&] { return results[run].number("hourglass_share"); });
+        figures.add({"length_error_percent" + tail, "percent", bar}, {run},
+                    [&] { return error(results[run].number("length"), bar_length); });
+        figures.add({"foot_radius_error_percent" + tail, "percent", bar}, {run},
+                    [&] { return error(results[run].number("radius"), bar_foot_radius); });
+        figures.add({"largest_plastic_strain" + tail, "1", {}}, {run},
+                    [&] { return results[run].number("plastic_strain"); });
+        figures.add({"hourglass_over_plastic" + tail, "1", {}}, {run},
+                    [&] { return results[run].number("hourglass_share"); });
     }
 }
 
@@ -237,13 +255,20 @@ void taylor_bar_figures(const Results& results, FigureList& figures) {
 
 std::vector<VerifyCase> solid_cases() {
     const auto solid = [](const char* name, const char* title, auto measure, auto figures) {
-        return VerifyCase{.name = name, .title = title, .is_full = {}, .measure = {}, .measure_solids = measure,
-                          .figures = figures, .pictures = {}};
+        return VerifyCase{.name = name,
+                          .title = title,
+                          .is_full = {},
+                          .measure = {},
+                          .measure_solids = measure,
+                          .figures = figures,
+                          .pictures = {}};
     };
     std::vector<VerifyCase> cases = {
         solid("beam", "A clamped plate that swings, against Timoshenko's beam", measure_beam, beam_figures),
-        solid("thick_tube", "A neo-Hookean tube under pressure, against the radial equilibrium of the same law", measure_thick_tube, thick_tube_figures),
-        solid("plastic_tube", "A tube of metal to its collapse, and what stays after unloading", measure_plastic_tube, plastic_tube_figures),
+        solid("thick_tube", "A neo-Hookean tube under pressure, against the radial equilibrium of the same law",
+              measure_thick_tube, thick_tube_figures),
+        solid("plastic_tube", "A tube of metal to its collapse, and what stays after unloading", measure_plastic_tube,
+              plastic_tube_figures),
         solid("taylor_bar", "A copper bar that hits a rigid wall", measure_taylor_bar, taylor_bar_figures)};
     cases[2].level = Level::full;
     cases[0].is_full = [](const std::string& run) { return run == "n20"; };

@@ -19,7 +19,8 @@ std::array<double, n> runge_kutta(const std::array<double, n>& y, double x, doub
         for (std::size_t i = 0; i < n; ++i) z[i] += by * k[i];
         return z;
     };
-    const auto k1 = f(x, y), k2 = f(x + h / 2, moved(k1, h / 2)), k3 = f(x + h / 2, moved(k2, h / 2)), k4 = f(x + h, moved(k3, h));
+    const auto k1 = f(x, y), k2 = f(x + h / 2, moved(k1, h / 2)), k3 = f(x + h / 2, moved(k2, h / 2)),
+               k4 = f(x + h, moved(k3, h));
     std::array<double, n> z = y;
     for (std::size_t i = 0; i < n; ++i) z[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
     return z;
@@ -57,7 +58,8 @@ State march(const Beam& b, double length, double omega, double moment, double fo
     const auto slope = [&](double, const State& s) {
         return State{s[3] / b.kGA + s[1], s[2] / b.EI, -s[3] - b.rhoI * w2 * s[1], -b.rhoA * w2 * s[0]};
     };
-    for (int k = 0; k < steps && k * h < until * (1 - 1e-12); ++k) y = runge_kutta(y, 0, std::min(h, until - k * h), slope);
+    for (int k = 0; k < steps && k * h < until * (1 - 1e-12); ++k)
+        y = runge_kutta(y, 0, std::min(h, until - k * h), slope);
     return y;
 }
 
@@ -123,11 +125,14 @@ TubeStress lame_stress(double inner, double outer, double pressure, double r) {
     return {scale * (1 - q), scale * (1 + q)};
 }
 
-double collapse_pressure(double inner, double outer, double yield) { return 2 / std::sqrt(3.0) * yield * std::log(outer / inner); }
+double collapse_pressure(double inner, double outer, double yield) {
+    return 2 / std::sqrt(3.0) * yield * std::log(outer / inner);
+}
 
 double plastic_radius(double inner, double outer, double yield, double pressure) {
     const double k = 2 / std::sqrt(3.0) * yield;
-    return bisect(inner, outer, [&](double c) { return k * (std::log(c / inner) + 0.5 * (1 - c * c / (outer * outer))) - pressure; });
+    return bisect(inner, outer,
+                  [&](double c) { return k * (std::log(c / inner) + 0.5 * (1 - c * c / (outer * outer))) - pressure; });
 }
 
 TubeStress residual_stress(double inner, double outer, double yield, double pressure, double r) {
@@ -150,15 +155,19 @@ double contact_modulus(const ElasticModuli& a, const ElasticModuli& b) {
 }
 double HertzLine::half_width(double load) const { return std::sqrt(4 * load * radius / (pi * modulus)); }
 double HertzLine::peak_pressure(double load) const { return std::sqrt(load * modulus / (pi * radius)); }
-double hertz_force(double radius, double modulus, double approach) { return 4.0 / 3 * modulus * std::sqrt(radius) * std::pow(approach, 1.5); }
+double hertz_force(double radius, double modulus, double approach) {
+    return 4.0 / 3 * modulus * std::sqrt(radius) * std::pow(approach, 1.5);
+}
 
 double hertz_sinking(double radius, double modulus, double force, double young, double poisson, double depth) {
     const double a = std::cbrt(0.75 * force * radius / modulus), p0 = 1.5 * force / (pi * a * a);
     constexpr int parts = 1000;   // over the angle whose sine is t: smooth at depth 0 too
     double sum = 0;
     for (int k = 0; k < parts; ++k) {
-        const double angle = (k + 0.5) / parts * pi / 2, t = std::sin(angle), r = a * std::cos(angle), square = r * r + depth * depth;
-        sum += pi / (2 * parts) * std::cos(angle) * t * t * (2 * (1 - poisson) + depth * depth / square) / std::sqrt(square);
+        const double angle = (k + 0.5) / parts * pi / 2, t = std::sin(angle), r = a * std::cos(angle),
+                     square = r * r + depth * depth;
+        sum += pi / (2 * parts) * std::cos(angle) * t * t * (2 * (1 - poisson) + depth * depth / square) /
+               std::sqrt(square);
     }
     return (1 + poisson) / young * p0 * a * a * sum;
 }

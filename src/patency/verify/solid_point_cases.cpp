@@ -35,13 +35,15 @@ std::vector<PointLaw> point_laws() {
         laws.push_back(point_law(m, Yeoh{0.5 * m.shear, 0.2 * m.shear, 0.1 * m.shear, m.bulk}));
         const FibreArtery artery{m.shear, 2 * m.shear, 8, 0.1, m.bulk};
         const Fibres<double> fibres{normalized(Vec3{1, 0.8, 0}), normalized(Vec3{1, -0.8, 0})};
-        laws.push_back({m, [=](const Mat3& F) { return artery.pk1(F, fibres); }, [=](const Mat3& C) { return artery.pk2(C, fibres); },
+        laws.push_back({m, [=](const Mat3& F) { return artery.pk1(F, fibres); },
+                        [=](const Mat3& C) { return artery.pk2(C, fibres); },
                         [=](const Mat3& F) { return artery.kirchhoff(F, fibres); }, false});
         const J2Plastic metal{m, {.yield = 1e-2 * m.young(), .slope = 0, .saturation = 0, .rate = 0}};
         laws.push_back({m, [=](const Mat3& F) { return pk1_of_kirchhoff(metal.kirchhoff(F), F); },
                         [=](const Mat3& C) {   // by the material route: S of the right stretch, which is sqrt(C)
                             const SymmetricEigen e = symmetric_eigen(C);
-                            const Mat3 U = from_eigen({std::sqrt(e.values.x), std::sqrt(e.values.y), std::sqrt(e.values.z)}, e.vectors);
+                            const Mat3 U = from_eigen(
+                                {std::sqrt(e.values.x), std::sqrt(e.values.y), std::sqrt(e.values.z)}, e.vectors);
                             return pk2_of_pk1(pk1_of_kirchhoff(metal.kirchhoff(U), U), U);
                         },
                         [=](const Mat3& F) { return metal.kirchhoff(F); }});
@@ -68,7 +70,8 @@ double moduli_error(const PointLaw& law) {
     const double bulk = (trace(law.kirchhoff(sheared(e, 0))) - trace(law.kirchhoff(sheared(-e, 0)))) / (18 * e);
     const double shear = (law.kirchhoff(sheared(0, e)).x.y - law.kirchhoff(sheared(0, -e)).x.y) / (4 * e);
     const double nu = law.wanted.poisson();
-    const UniaxialPoint up = pull_uniaxially(law.kirchhoff, 1 + e, 1 - nu * e, K), down = pull_uniaxially(law.kirchhoff, 1 - e, 1 + nu * e, K);
+    const UniaxialPoint up = pull_uniaxially(law.kirchhoff, 1 + e, 1 - nu * e, K),
+                        down = pull_uniaxially(law.kirchhoff, 1 - e, 1 + nu * e, K);
     return std::max({off(bulk, K), off(shear, G), off((up.stress - down.stress) / (2 * e), law.wanted.young()),
                      std::abs((down.lateral - up.lateral) / (2 * e) - nu)});
 }
@@ -93,7 +96,8 @@ double j2_path_error() {
             constexpr int parts = 20;
             for (int k = 1; k <= parts; ++k) {
                 const double strain = at + (to - at) * k / parts, axial = std::exp(strain);
-                const UniaxialPoint p = pull_uniaxially([&](const Mat3& F) { return law.stress(F, state).kirchhoff; }, axial, lateral, m.young());
+                const UniaxialPoint p = pull_uniaxially([&](const Mat3& F) { return law.stress(F, state).kirchhoff; },
+                                                        axial, lateral, m.young());
                 lateral = p.lateral;
                 state = law.stress({{axial, 0, 0}, {0, lateral, 0}, {0, 0, lateral}}, state).state;
                 const double trial = m.young() * (strain - plastic), side = trial > 0 ? 1 : -1;
@@ -145,14 +149,16 @@ PatchErrors measure_patch(Precision precision, bool planar) {
     const double s = std::sin(1.0), c = std::cos(1.0);
     const Mat3 turn_z{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}, turn_x{{1, 0, 0}, {0, c, -s}, {0, s, c}};
     const Mat3 turn = planar ? turn_z : turn_x * turn_z;
-    const Mat3 affine = planar ? Mat3{{1.2, 0.3, 0}, {-0.1, 0.9, 0}, {0, 0, 1}} : Mat3{{1.2, 0.3, -0.1}, {-0.1, 0.9, 0.2}, {0.05, 0.1, 1.1}};
+    const Mat3 affine = planar ? Mat3{{1.2, 0.3, 0}, {-0.1, 0.9, 0}, {0, 0, 1}}
+                               : Mat3{{1.2, 0.3, -0.1}, {-0.1, 0.9, 0.2}, {0.05, 0.1, 1.1}};
     PatchErrors errors;
     std::vector<Vec3> places;
     for (int k = 0; k < (planar ? 1 : across); ++k)
         for (int j = 0; j < across; ++j)
             for (int i = 0; i < across; ++i) {
                 const std::uint64_t n = 3 * places.size();
-                places.push_back(spacing * Vec3{i + 0.25 * scatter(n), j + 0.25 * scatter(n + 1), planar ? 0 : k + 0.25 * scatter(n + 2)});
+                places.push_back(spacing * Vec3{i + 0.25 * scatter(n), j + 0.25 * scatter(n + 1),
+                                                planar ? 0 : k + 0.25 * scatter(n + 2)});
             }
     for (const bool is_turned : {false, true}) {
         Solid solid;
@@ -167,8 +173,10 @@ PatchErrors measure_patch(Precision precision, bool planar) {
         body->drift(0, 0);
         body->compute_force(0);
         for (std::size_t i = 0; i < p.size(); ++i) {
-            if (is_turned) errors.rotation = std::max(errors.rotation, size(body->cauchy(i)) / m.young());
-            else errors.affine = std::max(errors.affine, size(body->deformation(i) - F));
+            if (is_turned)
+                errors.rotation = std::max(errors.rotation, size(body->cauchy(i)) / m.young());
+            else
+                errors.affine = std::max(errors.affine, size(body->deformation(i) - F));
         }
     }
     return errors;

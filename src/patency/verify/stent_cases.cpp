@@ -61,22 +61,27 @@ void measure_plastic_ring(const deck::Case& config, const std::string&, const St
     });
     run_to(*scene, held_from, interrupted, [] {});
     run_to(*scene, times[2], interrupted, [&] {
-        strain += hoop_strain(ring.body->particles()), force += scene->system.contacts[0]->report().normal_force, ++samples;
+        strain += hoop_strain(ring.body->particles()), force += scene->system.contacts[0]->report().normal_force,
+            ++samples;
     });
     strain /= double(samples), force /= double(samples);
     const double flowed = (strain - y / E) / (1 + H / E), stress = y + H * flowed;
     run_to(*scene, config.numerics.duration, interrupted, [&] {
-        if (scene->time > 0.5 * (times[3] + config.numerics.duration)) rest += hoop_strain(ring.body->particles());
-        else samples = 0;
+        if (scene->time > 0.5 * (times[3] + config.numerics.duration))
+            rest += hoop_strain(ring.body->particles());
+        else
+            samples = 0;
         ++samples;
     });
     rest /= double(samples - 1);
     note_size(*scene, data);
     data.lists["springback_error"] = {100 * std::abs((strain - rest) / (stress / E) - 1)};
-    data.lists["force_error"] = {100 * std::abs(force / (2 * std::numbers::pi * stress * section * std::exp(-strain)) - 1)};
+    data.lists["force_error"] = {100 *
+                                 std::abs(force / (2 * std::numbers::pi * stress * section * std::exp(-strain)) - 1)};
     double volume = 0;
     for (const double v : ring.body->particles().volume) volume += v;
-    data.lists["work_error"] = {100 * std::abs(ring.body->energy().plastic / (volume * metal.hardening.work(flowed)) - 1)};
+    data.lists["work_error"] = {100 *
+                                std::abs(ring.body->energy().plastic / (volume * metal.hardening.work(flowed)) - 1)};
     data.lists["strain"] = {strain};
     data.lists["ratio"] = {100 * ratio};
     data.lists["imbalance"] = {100 * energy_imbalance(*scene)};
@@ -123,7 +128,8 @@ void measure_stent(const deck::Case& config, const std::string&, const Stop& int
         next += full / samples;
         const SolidEnergy e = stent.body->energy();
         const ContactReport r = scene->system.contacts[0]->report();
-        time.push_back(scene->time), kinetic.push_back(e.kinetic), internal.push_back(e.internal()), pressures.push_back(r.pressure);
+        time.push_back(scene->time), kinetic.push_back(e.kinetic), internal.push_back(e.internal()),
+            pressures.push_back(r.pressure);
         diameter.push_back(shape().outer_diameter);
         if (scene->time > 0.1 * full && scene->time <= full) ratio = std::max(ratio, e.kinetic / e.internal());
         pressure = std::max(pressure, r.pressure);
@@ -141,7 +147,8 @@ void measure_stent(const deck::Case& config, const std::string&, const Stop& int
         look();
         if (scene->steps % 50 != 0) return;
         const StentShape now = shape();
-        rest += now.outer_diameter, length += now.length, ends += now.end_diameter, middle += now.middle_diameter, ++count;
+        rest += now.outer_diameter, length += now.length, ends += now.end_diameter, middle += now.middle_diameter,
+            ++count;
     });
     rest /= double(count), length /= double(count), ends /= double(count), middle /= double(count);
     double strain = 0;
@@ -152,16 +159,23 @@ void measure_stent(const deck::Case& config, const std::string&, const Stop& int
     put("recoil", 100 * (1 - rest / open.outer_diameter));
     put("foreshortening", 100 * (1 - length / before.length));
     put("dogboning", 100 * (open.end_diameter / open.middle_diameter - 1));
-    put("ratio", 100 * ratio), put("plastic_work", energy.plastic + energy.yielded), put("unresolved", 100 * energy.yielded / (energy.plastic + energy.yielded)), put("hourglass", 100 * energy.hourglass / energy.internal());
-    put("plastic_strain", strain), put("pressure", pressure), put("depth", 100 * depth / stent.body->numerics().spacing);
-    put("steps", steps_of_ramp), put("imbalance", 100 * energy_imbalance(*scene)), put("mass_scaling", stent.mass_scaling);
-    data.lists["time"] = time, data.lists["diameter"] = diameter, data.lists["kinetic"] = kinetic, data.lists["internal"] = internal;
+    put("ratio", 100 * ratio), put("plastic_work", energy.plastic + energy.yielded),
+        put("unresolved", 100 * energy.yielded / (energy.plastic + energy.yielded)),
+        put("hourglass", 100 * energy.hourglass / energy.internal());
+    put("plastic_strain", strain), put("pressure", pressure),
+        put("depth", 100 * depth / stent.body->numerics().spacing);
+    put("steps", steps_of_ramp), put("imbalance", 100 * energy_imbalance(*scene)),
+        put("mass_scaling", stent.mass_scaling);
+    data.lists["time"] = time, data.lists["diameter"] = diameter, data.lists["kinetic"] = kinetic,
+    data.lists["internal"] = internal;
     data.lists["pressure_of_time"] = pressures;
 }
 
-void add_stent_figures(const Results& results, FigureList& figures, const std::string& run, const std::string& tail, bool has_bars, std::optional<Bar> foreshortening = {}) {
+void add_stent_figures(const Results& results, FigureList& figures, const std::string& run, const std::string& tail,
+                       bool has_bars, std::optional<Bar> foreshortening = {}) {
     const auto add = [&](const char* key, const char* unit, std::optional<Bar> bar, const char* list) {
-        figures.add({key + tail, unit, has_bars ? bar : std::nullopt}, {run}, [&results, run, list] { return results[run].number(list); });
+        figures.add({key + tail, unit, has_bars ? bar : std::nullopt}, {run},
+                    [&results, run, list] { return results[run].number(list); });
     };
     add("open_diameter_mm", "mm", {}, "open");
     add("recoil_percent", "percent", Bar{8}, "recoil");
@@ -181,7 +195,8 @@ void add_stent_figures(const Results& results, FigureList& figures, const std::s
 
 /// Sum of a bar's both sides: what must not be below either.
 void add_least(const Results& results, FigureList& figures, const std::string& run, double recoil) {
-    figures.add({"recoil_at_least_percent", "percent", Bar{recoil, Sense::at_least}}, {run}, [&results, run] { return results[run].number("recoil"); });
+    figures.add({"recoil_at_least_percent", "percent", Bar{recoil, Sense::at_least}}, {run},
+                [&results, run] { return results[run].number("recoil"); });
     figures.add({"foreshortening_at_least_percent", "percent", Bar{0, Sense::at_least}}, {run},
                 [&results, run] { return results[run].number("foreshortening"); });
 }
@@ -190,11 +205,14 @@ void stent_ring_figures(const Results& results, FigureList& figures) {
     add_stent_figures(results, figures, "ring", "", true);
     add_least(results, figures, "ring", 0.5);
     const auto add_error = [&](const char* key, double bar, const char* list, double reference) {
-        figures.add({key, "percent", Bar{bar}}, {"ring"}, [&results, list, reference] { return 100 * std::abs(results["ring"].number(list) / reference - 1); });
+        figures.add({key, "percent", Bar{bar}}, {"ring"}, [&results, list, reference] {
+            return 100 * std::abs(results["ring"].number(list) / reference - 1);
+        });
     };
     add_error("recoil_error_percent", 10, "recoil", ring_recoil_percent);
     add_error("plastic_work_error_percent", 5, "plastic_work", ring_plastic_work);
-    figures.add({"foreshortening_difference_points", "percent", {}}, {"ring"},   // one row of crowns shortens by more than a stent
+    figures.add({"foreshortening_difference_points", "percent", {}},
+                {"ring"},   // one row of crowns shortens by more than a stent
                 [&] { return std::abs(results["ring"].number("foreshortening") - ring_foreshortening_percent); });
     figures.add({"recoil_change_of_ramp_points", "percent", Bar{0.5}}, {"ring", "slow"},
                 [&] { return std::abs(results["ring"].number("recoil") - results["slow"].number("recoil")); });
@@ -213,12 +231,21 @@ void stent_free_figures(const Results& results, FigureList& figures) {
 
 std::vector<VerifyCase> stent_cases() {
     const auto stent = [](const char* name, const char* title, Level level, auto measure, auto figures) {
-        return VerifyCase{.name = name, .title = title, .level = level, .is_full = {}, .measure = {}, .measure_solids = measure,
-                          .figures = figures, .pictures = {}};
+        return VerifyCase{.name = name,
+                          .title = title,
+                          .level = level,
+                          .is_full = {},
+                          .measure = {},
+                          .measure_solids = measure,
+                          .figures = figures,
+                          .pictures = {}};
     };
-    return {stent("plastic_ring", "A thin ring of metal that a balloon opens, and what springs back", Level::quick, measure_plastic_ring, plastic_ring_figures),
-            stent("stent_ring", "A ring of crowns, opened to 3.3 mm and let go", Level::full, measure_stent, stent_ring_figures),
-            stent("stent_free", "The open-cell stent, opened freely to 3.3 mm and let go", Level::full, measure_stent, stent_free_figures)};
+    return {stent("plastic_ring", "A thin ring of metal that a balloon opens, and what springs back", Level::quick,
+                  measure_plastic_ring, plastic_ring_figures),
+            stent("stent_ring", "A ring of crowns, opened to 3.3 mm and let go", Level::full, measure_stent,
+                  stent_ring_figures),
+            stent("stent_free", "The open-cell stent, opened freely to 3.3 mm and let go", Level::full, measure_stent,
+                  stent_free_figures)};
 }
 
 }   // namespace patency

@@ -9,13 +9,13 @@
 namespace patency {
 
 struct Picture {
-    std::string name;      ///< of the file, without .svg
+    std::string name;   ///< of the file, without .svg
     std::string caption;
     std::string svg;
 };
 
 struct Curve {
-    std::string label;        ///< none: one of those before it, in their colour
+    std::string label;   ///< none: one of those before it, in their colour
     std::vector<double> x, y;
     bool is_dotted = false;   ///< points instead of a line
 };
@@ -35,4 +35,4 @@ struct FieldMap {
 };
 std::string format_field(const FieldMap& map);
 
-}  // namespace patency
+}   // namespace patency

@@ -28,12 +28,13 @@ void FigureList::add(const Head& head, const std::vector<std::string>& runs, con
 std::span<const VerifyCase> verification_cases() {
     static const std::vector<VerifyCase> cases = [] {
         std::vector<VerifyCase> all;
-        for (auto group : {operator_cases, plane_cases, pipe_cases, windkessel_cases, nozzle_cases, coronary_cases, cell_cases, cell_shape_cases, vessel_cell_cases, solid_point_cases, solid_cases,
-                           contact_cases, stent_cases})
+        for (auto group :
+             {operator_cases, plane_cases, pipe_cases, windkessel_cases, nozzle_cases, coronary_cases, cell_cases,
+              cell_shape_cases, vessel_cell_cases, solid_point_cases, solid_cases, contact_cases, stent_cases})
             for (VerifyCase& c : group()) all.push_back(std::move(c));
         return all;
     }();
     return cases;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -7,8 +7,8 @@
 #include "patency/stages/cell_vessel.h"
 #include "patency/verify/cpu_time.h"
 #include "patency/verify/measures.h"
-#include "patency/verify/vessel_sections.h"
 #include "patency/verify/verify_case.h"
+#include "patency/verify/vessel_sections.h"
 
 namespace patency {
 
@@ -125,17 +125,19 @@ void bifurcation_figures(const Results& results, FigureList& figures) {
         add("cpu_s", "s", {}, [](const RunData& d) { return d.number("cpu_s"); });
     }
     const auto study = [&results, drop] {
-        return SpacingStudy{{1.0 / 12, 1.0 / 16, 1.0 / 20}, {drop(results["n12"]), drop(results["n16"]), drop(results["n20"])}};
+        return SpacingStudy{{1.0 / 12, 1.0 / 16, 1.0 / 20},
+                            {drop(results["n12"]), drop(results["n16"]), drop(results["n20"])}};
     };
     figures.add({"drop_extrapolated", "Pa", {}}, {"n12", "n16", "n20"}, [study] { return study().extrapolated(); });
-    figures.add({"drop_grid_convergence_index_percent", "percent", {}}, {"n12", "n16", "n20"}, [study] { return study().convergence_index_percent(); });
+    figures.add({"drop_grid_convergence_index_percent", "percent", {}}, {"n12", "n16", "n20"},
+                [study] { return study().convergence_index_percent(); });
 }
 
 // --- the left coronary tree ---
 
-constexpr OutletReference tree_outlets[] = {{"outlet_1", 4.5679046e-7, 489.34},  {"outlet_2", 3.177946e-7, 434.64},
-                                            {"outlet_3", 2.694612e-7, 422.75},   {"outlet_4", 2.694407e-7, 1676.81},
-                                            {"outlet_5", 1.182966e-7, 345.63},   {"outlet_6", 6.6995682e-8, 1506.97}};
+constexpr OutletReference tree_outlets[] = {{"outlet_1", 4.5679046e-7, 489.34}, {"outlet_2", 3.177946e-7, 434.64},
+                                            {"outlet_3", 2.694612e-7, 422.75},  {"outlet_4", 2.694407e-7, 1676.81},
+                                            {"outlet_5", 1.182966e-7, 345.63},  {"outlet_6", 6.6995682e-8, 1506.97}};
 constexpr double lesion_drop = 1402.4, lesion_from = -8 * mm, lesion_to = 4 * mm;   // [Pa]; arcs from the throat
 
 void measure_tree(const deck::Case& config, const std::string&, const std::filesystem::path& reference,

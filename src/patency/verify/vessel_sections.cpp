@@ -45,7 +45,8 @@ WallRing ring_around(const SectionPlane& plane, const WallHint& wall) {
         const double angle = 2 * std::numbers::pi * k / around;
         const Vec3 ray = std::cos(angle) * a + std::sin(angle) * b;
         double r = 0;
-        for (int step = 0; step < 60; ++step) r -= wall.distance(plane.centre + r * ray);   // never farther than the wall is
+        for (int step = 0; step < 60; ++step)
+            r -= wall.distance(plane.centre + r * ray);   // never farther than the wall is
         ring.places.position.push_back(plane.centre + r * ray);
         ring.places.normal.push_back(wall.normal(ring.places.position.back()));
     }

@@ -16,7 +16,9 @@ namespace patency {
 
 namespace {
 
-Rcr rcr_of(const deck::Opening& o) { return {o.proximal_resistance, o.compliance, o.distal_resistance, o.distal_pressure}; }
+Rcr rcr_of(const deck::Opening& o) {
+    return {o.proximal_resistance, o.compliance, o.distal_resistance, o.distal_pressure};
+}
 
 FourierSeries inflow_of(const deck::Case& c) {
     const deck::Fourier& f = *c.openings.at("inlet").waveform->fourier;
@@ -54,8 +56,8 @@ Reference read_svfsi(const std::filesystem::path& folder) {
 }
 
 double interpolated(const std::vector<double>& times, const std::vector<double>& values, double t) {
-    const auto k = std::size_t(std::clamp<std::ptrdiff_t>(std::lower_bound(times.begin(), times.end(), t) - times.begin(), 1,
-                                                          std::ptrdiff_t(times.size()) - 1));
+    const auto k = std::size_t(std::clamp<std::ptrdiff_t>(
+        std::lower_bound(times.begin(), times.end(), t) - times.begin(), 1, std::ptrdiff_t(times.size()) - 1));
     const double f = (t - times[k - 1]) / (times[k] - times[k - 1]);
     return values[k - 1] + f * (values[k] - values[k - 1]);
 }
@@ -85,9 +87,13 @@ void measure_windkessel(Scene& scene, const RunContext& context, RunData& data) 
         // The network of tubes and models that it stands for.
         const deck::Case& c = scene.config;
         const auto& branches = c.geometry.shape->branches;
-        const auto tube = [](const deck::Branch& b) { return YNetwork::Tube{0.5 * b.diameters[0], norm(b.to - b.from)}; };
-        YNetwork network{.density = c.blood.density, .viscosity = c.blood.viscosity, .inlet = tube(branches.at(0)), .branches = {}};
-        for (std::size_t k : {1, 2}) network.branches.push_back({tube(branches.at(k)), rcr_of(c.openings.at("outlet_" + branches[k].name))});
+        const auto tube = [](const deck::Branch& b) {
+            return YNetwork::Tube{0.5 * b.diameters[0], norm(b.to - b.from)};
+        };
+        YNetwork network{
+            .density = c.blood.density, .viscosity = c.blood.viscosity, .inlet = tube(branches.at(0)), .branches = {}};
+        for (std::size_t k : {1, 2})
+            network.branches.push_back({tube(branches.at(k)), rcr_of(c.openings.at("outlet_" + branches[k].name))});
         const YNetworkFlow exact = solve_y_network(network, inflow_of(c));
         for (std::size_t k = 0; k < 2; ++k)
             for (const double t : data.list("times")) {
@@ -98,7 +104,8 @@ void measure_windkessel(Scene& scene, const RunContext& context, RunData& data) 
     }
     run_until(scene, context, until, [&](const Scene& now, double) { record_openings(now, data); });
     const Reference alone = solve_rcr(scene.config, until + 0.01);
-    for (const double t : data.list("times")) data.lists["model_outlet"].push_back(interpolated(alone.times, alone.outlet, t));
+    for (const double t : data.list("times"))
+        data.lists["model_outlet"].push_back(interpolated(alone.times, alone.outlet, t));
     const Reference other = read_svfsi(context.reference);
     if (other.times.empty() || other.times.back() < until - 1e-9) return;
     for (const double t : data.list("times")) {
@@ -133,7 +140,8 @@ void windkessel_figures(const Results& results, FigureList& figures) {
         const auto r = [&]() -> const RunData& { return results[run]; };
         const double from = run == "pipe" ? settled : 0.1;
         figures.add({"pressure_error_percent", "percent", Bar{1.0}}, {run}, [&] {
-            return largest_error_percent(r(), "pressure_outlet", r().lists.contains("other_outlet") ? "other_outlet" : "model_outlet", from);
+            return largest_error_percent(r(), "pressure_outlet",
+                                         r().lists.contains("other_outlet") ? "other_outlet" : "model_outlet", from);
         });
         figures.add({"pressure_error_to_model_percent", "percent", {}}, {run},
                     [&] { return largest_error_percent(r(), "pressure_outlet", "model_outlet", from); });
@@ -161,7 +169,8 @@ void windkessel_figures(const Results& results, FigureList& figures) {
     figures.add({"y_flow_wave_error_percent", "percent", {}}, {"y"}, [&] {
         const RunData& r = results["y"];
         double worst = 0;
-        for (const std::string& side : sides) worst = std::max(worst, largest_error_percent(r, "flow_" + side, "exact_flow_" + side, 0));
+        for (const std::string& side : sides)
+            worst = std::max(worst, largest_error_percent(r, "flow_" + side, "exact_flow_" + side, 0));
         return worst;
     });
 }
@@ -175,7 +184,9 @@ std::vector<Picture> windkessel_pictures(const Results& results) {
     for (const std::string run : {"pipe", "pipe_short"}) {
         if (!results.has(run)) continue;
         const RunData& r = results[run];
-        Plot plot{"t [s]", "outlet pressure [mmHg]", {{"model alone", r.list("times"), scaled(r.list("model_outlet"), 1 / 133.322), false}}};
+        Plot plot{"t [s]",
+                  "outlet pressure [mmHg]",
+                  {{"model alone", r.list("times"), scaled(r.list("model_outlet"), 1 / 133.322), false}}};
         if (r.lists.contains("other_outlet"))
             plot.curves.push_back({"svFSI", r.list("times"), scaled(r.list("other_outlet"), 1 / 133.322), false});
         plot.curves.push_back({"patency", r.list("times"), scaled(r.list("pressure_outlet"), 1 / 133.322), false});
@@ -186,15 +197,17 @@ std::vector<Picture> windkessel_pictures(const Results& results) {
         const RunData& r = results["y"];
         Plot plot{"t [s]", "flow [mL/min]", {}};
         for (const std::string side : {"left", "right"}) {
-            plot.curves.push_back({"network, " + side, r.list("times"), scaled(r.list("exact_flow_outlet_" + side), 6e7), false});
-            plot.curves.push_back({"patency, " + side, r.list("times"), scaled(r.list("flow_outlet_" + side), 6e7), false});
+            plot.curves.push_back(
+                {"network, " + side, r.list("times"), scaled(r.list("exact_flow_outlet_" + side), 6e7), false});
+            plot.curves.push_back(
+                {"patency, " + side, r.list("times"), scaled(r.list("flow_outlet_" + side), 6e7), false});
         }
         pictures.push_back({"windkessel_y", "A Y with two different RCRs", format_plot(plot)});
     }
     return pictures;
 }
 
-}  // namespace
+}   // namespace
 
 std::vector<VerifyCase> windkessel_cases() {
     return {{.name = "windkessel",
@@ -211,4 +224,4 @@ std::vector<VerifyCase> windkessel_cases() {
              .pictures = {}}};
 }
 
-}  // namespace patency
+}   // namespace patency

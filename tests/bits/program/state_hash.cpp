@@ -22,7 +22,8 @@ namespace {
 
 bool processor_fits() {
 #if defined(__AVX512F__)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq");
 #elif defined(__AVX2__)
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #else
@@ -53,7 +54,9 @@ struct Points {
 Points make_points() {
     Points points;
     std::uint32_t state = 1;
-    const auto jitter = [&] { return 0.1 * dp * (double((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0 - 0.5); };
+    const auto jitter = [&] {
+        return 0.1 * dp * (double((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0 - 0.5);
+    };
     const int across = 9, along = 12, beyond = 4;
     for (int i = -beyond - 6; i < along + beyond + 6; ++i)
         for (int j = -across; j < across; ++j)
@@ -61,13 +64,15 @@ Points make_points() {
                 Vec3 x{(i + 0.5) * dp, (j + 0.5) * dp, (k + 0.5) * dp};
                 const double r = std::sqrt(x.y * x.y + x.z * x.z);
                 if (r > radius + 3.2 * dp) continue;
-                if (r > radius) points.wall.push_back(x);
-                else if (i >= -beyond && i < along + beyond) points.blood.push_back({x.x + jitter(), x.y + jitter(), x.z + jitter()});
+                if (r > radius)
+                    points.wall.push_back(x);
+                else if (i >= -beyond && i < along + beyond)
+                    points.blood.push_back({x.x + jitter(), x.y + jitter(), x.z + jitter()});
             }
     return points;
 }
 
-}  // namespace
+}   // namespace
 
 int main(int argc, char** argv) {
     if (!processor_fits()) return 77;
@@ -100,10 +105,13 @@ int main(int argc, char** argv) {
         wall.volume[i] = dp * dp * dp;
     }
     std::vector<OpenEnd> ends(2);
-    for (OpenEnd& end : ends) end.area = 3.14159265358979 * radius * radius, end.reach = 1.5 * radius, end.buffer_length = buffer_length;
+    for (OpenEnd& end : ends)
+        end.area = 3.14159265358979 * radius * radius, end.reach = 1.5 * radius, end.buffer_length = buffer_length;
     ends[0].kind = OpenEnd::Kind::velocity;
     ends[0].normal = {-1, 0, 0};
-    ends[0].velocity = [](const Vec3& x, double t) { return Vec3{(0.25 + 5 * t) * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0}; };
+    ends[0].velocity = [](const Vec3& x, double t) {
+        return Vec3{(0.25 + 5 * t) * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0};
+    };
     ends[1].kind = OpenEnd::Kind::pressure;
     ends[1].centre = {length, 0, 0}, ends[1].normal = {1, 0, 0};
     ends[1].resistance = 1e7;
@@ -112,9 +120,12 @@ int main(int argc, char** argv) {
     numerics.spacing = dp;
     numerics.reference_speed = 0.3;
     const double beyond = buffer_length + 12 * dp, around = radius + 5 * dp;
-    const Frame frame({-beyond, -around, -around}, {length + beyond, around, around}, 2 * numerics.smoothing_ratio * dp);
-    const FlowDomain domain{fluid, wall, ends, frame, [](const Vec3& x) { return std::sqrt(x.y * x.y + x.z * x.z) - radius; }};
-    const auto scheme = make_flow_scheme(mixed ? Precision::mixed : Precision::double_precision, domain, blood, numerics);
+    const Frame frame({-beyond, -around, -around}, {length + beyond, around, around},
+                      2 * numerics.smoothing_ratio * dp);
+    const FlowDomain domain{fluid, wall, ends, frame,
+                            [](const Vec3& x) { return std::sqrt(x.y * x.y + x.z * x.z) - radius; }};
+    const auto scheme =
+        make_flow_scheme(mixed ? Precision::mixed : Precision::double_precision, domain, blood, numerics);
 
     double time = 0;
     for (int k = 0; k < steps; ++k) {
@@ -125,6 +136,7 @@ int main(int argc, char** argv) {
             const double measured[] = {end.flow, end.mean_pressure, end.slope, end.crossed_volume, step.dt};
             h = hash(h, std::as_bytes(std::span(measured)));
         }
-        fmt::print("step {} particles {} acoustic {} flow {:.6g} hash {:016x}\n", k + 1, fluid.size(), step.acoustic_steps, ends[1].flow, h);
+        fmt::print("step {} particles {} acoustic {} flow {:.6g} hash {:016x}\n", k + 1, fluid.size(),
+                   step.acoustic_steps, ends[1].flow, h);
     }
 }

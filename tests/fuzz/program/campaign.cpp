@@ -29,7 +29,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int most_workers = 64, most_seeds = 64;
 constexpr unsigned nothing = ~0u;
-constexpr rlim_t most_memory = rlim_t(8) << 30;   // bytes of addresses: a file of some KB that asks for more is a finding
+constexpr rlim_t most_memory =
+    rlim_t(8) << 30;   // bytes of addresses: a file of some KB that asks for more is a finding
 
 double seconds() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
@@ -69,7 +70,10 @@ fs::path fastest_folder() {
 class Run {
 public:
     explicit Run(const Campaign& campaign)
-        : c_(campaign), shared_(make_shared_memory()), scratch_(fastest_folder()), processes_(std::size_t(c_.at_once)) {}
+        : c_(campaign),
+          shared_(make_shared_memory()),
+          scratch_(fastest_folder()),
+          processes_(std::size_t(c_.at_once)) {}
     ~Run() { ::munmap(&shared_, sizeof(Shared)); }
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
@@ -133,7 +137,8 @@ private:
             own.number = number;
             const Ending ending = end_of(place_of(w, number), damaged(c_, number), sentence);
             own.number = nothing;
-            if (const double time = seconds_of(::getpid()) - used; time > own.slowest_time) own.slowest = number, own.slowest_time = time;
+            if (const double time = seconds_of(::getpid()) - used; time > own.slowest_time)
+                own.slowest = number, own.slowest_time = time;
             count(number, ending);
             if (ending == Ending::found) report(number, sentence);
         }
@@ -153,8 +158,8 @@ private:
     /// It computes for too long, or waits for something that does not come.
     bool is_stuck(const Shared::Worker& worker, pid_t process) const {
         constexpr double longest_wait = 10;   // times the longest computation
-        return worker.number != nothing && (seconds_of(process) - worker.used > c_.longest ||
-                                            seconds() - worker.since > longest_wait * c_.longest);
+        return worker.number != nothing &&
+               (seconds_of(process) - worker.used > c_.longest || seconds() - worker.since > longest_wait * c_.longest);
     }
 
     /// Of the parent: has the worker ended, crashed, or been at one file for too long?
@@ -165,8 +170,10 @@ private:
         int status = 0;
         std::string what;
         if (::waitpid(process, &status, WNOHANG) == process) {
-            if (WIFSIGNALED(status)) what = fmt::format("a crash ({})", ::strsignal(WTERMSIG(status)));
-            else if (WEXITSTATUS(status) != 0) what = fmt::format("the process ends with {}", WEXITSTATUS(status));
+            if (WIFSIGNALED(status))
+                what = fmt::format("a crash ({})", ::strsignal(WTERMSIG(status)));
+            else if (WEXITSTATUS(status) != 0)
+                what = fmt::format("the process ends with {}", WEXITSTATUS(status));
         } else if (is_stuck(worker, process)) {
             ::kill(process, SIGKILL);
             ::waitpid(process, &status, 0);
@@ -198,12 +205,14 @@ std::string damaged(const Campaign& campaign, unsigned number) {
     const std::size_t count = campaign.seeds.size();
     const fs::path& seed = campaign.seeds[number % count];
     std::size_t other = number / count % count;   // of the same kind, if there is another one
-    for (std::size_t k = 0; k < count && campaign.seeds[other].extension() != seed.extension(); ++k) other = (other + 1) % count;
+    for (std::size_t k = 0; k < count && campaign.seeds[other].extension() != seed.extension(); ++k)
+        other = (other + 1) % count;
     return Mutator(number)(contents_of(seed), contents_of(campaign.seeds[other]));
 }
 
 Tally run_campaign(const Campaign& campaign) {
-    if (campaign.seeds.empty() || campaign.seeds.size() > most_seeds || campaign.at_once < 1 || campaign.at_once > most_workers)
+    if (campaign.seeds.empty() || campaign.seeds.size() > most_seeds || campaign.at_once < 1 ||
+        campaign.at_once > most_workers)
         throw std::invalid_argument("1 to 64 seeds and 1 to 64 processes");
     return Run(campaign).go();
 }

@@ -15,8 +15,8 @@ struct Campaign {
     std::vector<std::filesystem::path> seeds{};   ///< file k is made of seed k modulo their number
     unsigned first = 0, count = 400;              ///< numbers of the files
     int at_once = 2;                              ///< processes
-    double longest = 20;                          ///< s of processor time per file, for the machine may do other things too
-    std::filesystem::path keep{};                 ///< a folder for the files of findings
+    double longest = 20;            ///< s of processor time per file, for the machine may do other things too
+    std::filesystem::path keep{};   ///< a folder for the files of findings
 };
 
 struct Tally {

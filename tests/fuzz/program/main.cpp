@@ -41,7 +41,8 @@ constexpr const char* words[endings] = {"accepted", "usage", "deck", "geometry",
 int try_files(const std::vector<fs::path>& paths) {
     bool is_found = false;
     for (const fs::path& path : paths) {
-        const fs::path copy = fs::temp_directory_path() / ("patency_fuzz_" + path.filename().string());   // it is written again
+        const fs::path copy =
+            fs::temp_directory_path() / ("patency_fuzz_" + path.filename().string());   // it is written again
         std::ifstream file(path, std::ios::binary);
         std::string sentence;
         const Ending ending = end_of(copy, {std::istreambuf_iterator<char>(file), {}}, sentence);
@@ -86,12 +87,18 @@ int run(int count, char** arguments) {
         if (k + 1 == count) return fmt::print(stderr, "{}", usage), 2;
         const char* value = arguments[k + 1];
         const auto number = unsigned(std::strtoul(value, nullptr, 10));
-        if (key == "--count") campaign.count = number;
-        else if (key == "--first") campaign.first = number;
-        else if (key == "--kinds") kinds = value;
-        else if (key == "--at-once") campaign.at_once = int(number);
-        else if (key == "--keep") campaign.keep = value;
-        else return fmt::print(stderr, "{}", usage), 2;
+        if (key == "--count")
+            campaign.count = number;
+        else if (key == "--first")
+            campaign.first = number;
+        else if (key == "--kinds")
+            kinds = value;
+        else if (key == "--at-once")
+            campaign.at_once = int(number);
+        else if (key == "--keep")
+            campaign.keep = value;
+        else
+            return fmt::print(stderr, "{}", usage), 2;
     }
     campaign.seeds = find_seeds(kinds);
     return judge(campaign, run_campaign(campaign));

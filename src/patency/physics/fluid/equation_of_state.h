@@ -19,4 +19,4 @@ T pressure_at_density(T density, T rest_density, T sound_speed) {
     return sound_speed * sound_speed * (density - rest_density);
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -27,9 +27,9 @@ struct CarreauYasuda {
 /// sqrt(mu) = sqrt(mu_c) + sqrt(tau_y / g) [1 - exp(-sqrt(m g))]: Casson's law sqrt(tau) = sqrt(tau_y) + sqrt(mu_c g)
 /// with the exponent of Papanastasiou (THEORY (10.3)). At g = 0 sqrt(mu) = sqrt(mu_c) + sqrt(tau_y m).
 struct Casson {
-    double yield_stress;               // tau_y, Pa
-    double plastic_viscosity;          // mu_c, Pa s
-    double regularisation_time = 100;  // m, s: with 1/m well below the shear rates of interest the law is Casson's
+    double yield_stress;                // tau_y, Pa
+    double plastic_viscosity;           // mu_c, Pa s
+    double regularisation_time = 100;   // m, s: with 1/m well below the shear rates of interest the law is Casson's
 };
 
 /// mu = K g^(n - 1) (THEORY (10.4)), kept between two viscosities (the law itself goes to infinity at rest, to zero at high shear).
@@ -71,8 +71,8 @@ T viscosity(const Casson& law, T shear_rate) {
     using std::expm1, std::max, std::sqrt;
     // sqrt(tau_y / g) (1 - e^(-x)) = sqrt(tau_y m) (1 - e^(-x)) / x with x = sqrt(m g): no division by zero.
     const T x = max(sqrt(T(law.regularisation_time) * shear_rate), T(1e-18));
-    const T root = T(std::sqrt(law.plastic_viscosity)) -
-                   T(std::sqrt(law.yield_stress * law.regularisation_time)) * expm1(-x) / x;
+    const T root =
+        T(std::sqrt(law.plastic_viscosity)) - T(std::sqrt(law.yield_stress * law.regularisation_time)) * expm1(-x) / x;
     return root * root;
 }
 
@@ -100,4 +100,4 @@ inline double wall_shear_rate(const PowerLaw& law, double radius, double flow) {
     return (3 * n + 1) / (4 * n) * 4 * flow / (std::numbers::pi * radius * radius * radius);
 }
 
-}  // namespace patency
+}   // namespace patency

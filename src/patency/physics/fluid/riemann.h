@@ -34,8 +34,8 @@ T star_velocity(const RiemannSide<T>& left, const RiemannSide<T>& right, T sound
 template <class T>
 T star_pressure(const RiemannSide<T>& left, const RiemannSide<T>& right, T sound_speed) {
     const T approach = left.velocity - right.velocity;
-    return T(0.5f) * (left.pressure + right.pressure) +
-           left.density * right.density / (left.density + right.density) * (riemann_limiter(approach, sound_speed) * approach);
+    return T(0.5f) * (left.pressure + right.pressure) + left.density * right.density / (left.density + right.density) *
+                                                            (riemann_limiter(approach, sound_speed) * approach);
 }
 
-}  // namespace patency
+}   // namespace patency

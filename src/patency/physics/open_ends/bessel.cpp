@@ -30,4 +30,4 @@ std::complex<double> scaled_bessel_i(int n, std::complex<double> z) {
     return sum / std::sqrt(2 * std::numbers::pi * z);
 }
 
-}  // namespace patency
+}   // namespace patency

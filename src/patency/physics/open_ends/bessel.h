@@ -12,4 +12,4 @@ namespace patency {
 /// Stegun 9.6.10 and 9.7.1). I_n(z) = i^(-n) J_n(i z).
 std::complex<double> scaled_bessel_i(int n, std::complex<double> z);
 
-}  // namespace patency
+}   // namespace patency

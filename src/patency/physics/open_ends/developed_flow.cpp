@@ -37,8 +37,10 @@ std::vector<double> DevelopedFlow::solve(double rate, std::vector<double> right)
         const double inner = i > 0 ? to_rate * edge(section_, double(i) * width) : 0;
         const double outer = to_rate * edge(section_, double(i + 1) * width);
         double own = rate + inner, next = -outer, last = -inner;
-        if (i + 1 < rings) own += outer;
-        else own += 3 * outer, last -= outer / 3, next = 0;
+        if (i + 1 < rings)
+            own += outer;
+        else
+            own += 3 * outer, last -= outer / 3, next = 0;
         if (i > 0) own -= last * upper[i - 1], right[i] -= last * right[i - 1];
         upper[i] = next / own;
         right[i] /= own;
@@ -49,7 +51,8 @@ std::vector<double> DevelopedFlow::solve(double rate, std::vector<double> right)
 
 double DevelopedFlow::mean(const std::vector<double>& values) const {
     double sum = 0, all = 0;
-    for (std::size_t i = 0; i < rings; ++i) sum += edge(section_, middle(i)) * values[i], all += edge(section_, middle(i));
+    for (std::size_t i = 0; i < rings; ++i)
+        sum += edge(section_, middle(i)) * values[i], all += edge(section_, middle(i));
     return sum / all;
 }
 
@@ -75,7 +78,8 @@ void DevelopedFlow::start_from(std::span<const double> places, std::span<const d
         const double s = middle(i);
         double sum = 0, weights = 0, nearest = INFINITY, there = 0;
         for (std::size_t k = 0; k < places.size(); ++k) {
-            const double q = std::abs(places[k] - s) / reach, field = speeds[k] / std::max(1 - places[k] * places[k], 1e-3);
+            const double q = std::abs(places[k] - s) / reach,
+                         field = speeds[k] / std::max(1 - places[k] * places[k], 1e-3);
             if (q < 1) sum += (1 - q) * (1 - q) * field, weights += (1 - q) * (1 - q);
             if (q < nearest) nearest = q, there = field;
         }

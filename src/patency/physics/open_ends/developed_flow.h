@@ -42,7 +42,7 @@ private:
     std::vector<double> solve(double rate, std::vector<double> right) const;
 
     Section section_;
-    double diffusion_;   // viscosity over radius^2 [1/s]
+    double diffusion_;                                  // viscosity over radius^2 [1/s]
     std::vector<double> last_, before_, rest_, unit_;   // in the middles of rings
 };
 

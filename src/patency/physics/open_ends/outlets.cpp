@@ -78,7 +78,7 @@ StepMap make_map(const Coronary& m, const OutletState& x, TimeStep step) {
             map.end[i] += back[i] * to_end * e1 / a;
         }
     };
-    add_axis(slow, c, s);    // atan2 puts the larger eigenvalue, the slow one, on this axis
+    add_axis(slow, c, s);   // atan2 puts the larger eigenvalue, the slow one, on this axis
     add_axis(fast, -s, c);
     return map;
 }
@@ -89,10 +89,10 @@ StepMap make_map(const OutletModel& model, const OutletState& state, TimeStep st
 
 /// What lies between the opening and the first capacitor.
 double series_resistance(const OutletModel& model) {
-    return std::visit(Overloaded{[](const Resistance& m) { return m.resistance; },
-                                 [](const Rcr& m) { return m.proximal_resistance; },
-                                 [](const Coronary& m) { return m.arterial_resistance; }},
-                      model);
+    return std::visit(
+        Overloaded{[](const Resistance& m) { return m.resistance; }, [](const Rcr& m) { return m.proximal_resistance; },
+                   [](const Coronary& m) { return m.arterial_resistance; }},
+        model);
 }
 
 void expect_positive(double value, const char* what) {
@@ -107,7 +107,7 @@ void expect_finite(double value, const char* what) {
     if (!std::isfinite(value)) throw DeckError(std::string("an outlet's ") + what + " is not a finite number");
 }
 
-}  // namespace
+}   // namespace
 
 void expect_valid(const OutletModel& model) {
     std::visit(Overloaded{[](const Resistance& m) {
@@ -132,14 +132,17 @@ void expect_valid(const OutletModel& model) {
 }
 
 OutletState make_steady_state(const OutletModel& model, double flow) {
-    return std::visit(
-        Overloaded{[](const Resistance& m) { return OutletState{m.distal_pressure, 0}; },
-                   [&](const Rcr& m) { return OutletState{m.distal_pressure + m.distal_resistance * flow, 0}; },
-                   [&](const Coronary& m) {
-                       const double p2 = m.venous_pressure + m.venous_resistance * flow;
-                       return OutletState{p2 + m.microvascular_resistance * flow, p2};
-                   }},
-        model);
+    return std::visit(Overloaded{[](const Resistance& m) {
+                                     return OutletState{m.distal_pressure, 0};
+                                 },
+                                 [&](const Rcr& m) {
+                                     return OutletState{m.distal_pressure + m.distal_resistance * flow, 0};
+                                 },
+                                 [&](const Coronary& m) {
+                                     const double p2 = m.venous_pressure + m.venous_resistance * flow;
+                                     return OutletState{p2 + m.microvascular_resistance * flow, p2};
+                                 }},
+                      model);
 }
 
 double outlet_pressure(const OutletModel& model, const OutletState& state, double flow) {
@@ -171,19 +174,18 @@ OutletResponse step_response(const OutletModel& model, const OutletState& state,
 std::complex<double> impedance(const OutletModel& model, double angular_frequency) {
     using Complex = std::complex<double>;
     const Complex iw{0, angular_frequency};
-    return std::visit(
-        Overloaded{[](const Resistance& m) { return Complex{m.resistance}; },
-                   [&](const Rcr& m) {
-                       const double distal = m.distal_resistance;
-                       return m.proximal_resistance + distal / (1.0 + iw * distal * m.compliance);
-                   },
-                   [&](const Coronary& m) {
-                       const double vein = m.venous_resistance;
-                       const Complex muscle = vein / (1.0 + iw * vein * m.myocardial_compliance);
-                       const Complex bed = m.microvascular_resistance + muscle;
-                       return m.arterial_resistance + bed / (1.0 + iw * m.arterial_compliance * bed);
-                   }},
-        model);
+    return std::visit(Overloaded{[](const Resistance& m) { return Complex{m.resistance}; },
+                                 [&](const Rcr& m) {
+                                     const double distal = m.distal_resistance;
+                                     return m.proximal_resistance + distal / (1.0 + iw * distal * m.compliance);
+                                 },
+                                 [&](const Coronary& m) {
+                                     const double vein = m.venous_resistance;
+                                     const Complex muscle = vein / (1.0 + iw * vein * m.myocardial_compliance);
+                                     const Complex bed = m.microvascular_resistance + muscle;
+                                     return m.arterial_resistance + bed / (1.0 + iw * m.arterial_compliance * bed);
+                                 }},
+                      model);
 }
 
-}  // namespace patency
+}   // namespace patency

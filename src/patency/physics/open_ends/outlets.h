@@ -14,16 +14,16 @@ namespace patency {
 
 /// p = p_d + R Q. THEORY (9.1).
 struct Resistance {
-    double resistance;              // R, Pa s/m3
-    double distal_pressure = 0;     // p_d, Pa
+    double resistance;            // R, Pa s/m3
+    double distal_pressure = 0;   // p_d, Pa
 };
 
 /// p = p_c + R_p Q,  C dp_c/dt = Q - (p_c - p_d) / R_d: three-element Windkessel, THEORY (9.2).
 struct Rcr {
-    double proximal_resistance;     // R_p, Pa s/m3, >= 0
-    double compliance;              // C, m3/Pa
-    double distal_resistance;       // R_d, Pa s/m3
-    double distal_pressure = 0;     // p_d, Pa
+    double proximal_resistance;   // R_p, Pa s/m3, >= 0
+    double compliance;            // C, m3/Pa
+    double distal_resistance;     // R_d, Pa s/m3
+    double distal_pressure = 0;   // p_d, Pa
 };
 
 /// Coronary bed with the heart muscle's squeeze (Kim et al., Ann Biomed Eng 38, 2010; open loop), THEORY (9.5):
@@ -84,4 +84,4 @@ OutletResponse step_response(const OutletModel& model, const OutletState& state,
 /// At w = 0 the sum of the resistances. Rcr: R_p + R_d / (1 + i w R_d C), THEORY (9.4).
 std::complex<double> impedance(const OutletModel& model, double angular_frequency);
 
-}  // namespace patency
+}   // namespace patency

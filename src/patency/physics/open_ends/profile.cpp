@@ -43,7 +43,7 @@ void for_each_term(Section section, Complex z, auto visit) {
     }
 }
 
-}  // namespace
+}   // namespace
 
 double section_area(Section section, double radius) {
     return section == Section::circular ? pi * radius * radius : 2 * radius;
@@ -107,7 +107,8 @@ Complex WomersleyMode::shape(double s) const {
     if (s > 1) return 0;
     if (alpha_ < parabola_limit) return parabola_profile(section_, s);
     if (alpha_ < series_limit) return from_series(s) / mean_;
-    const Complex at = section_ == Section::circular ? scaled_bessel_i(0, s * z_) : 0.5 * (1.0 + std::exp(-2.0 * s * z_));
+    const Complex at =
+        section_ == Section::circular ? scaled_bessel_i(0, s * z_) : 0.5 * (1.0 + std::exp(-2.0 * s * z_));
     return (1.0 - at / scale_ * std::exp((s - 1) * z_)) / mean_;
 }
 
@@ -158,13 +159,15 @@ double ProfileSnapshot::operator()(double s) const {
 
 double WomersleyProfile::wall_shear_stress(double time) const {
     const Complex steady = WomersleyMode(section_, 0).wall_shear() * mean_velocity_.mean;
-    const Complex waves = sum_modes(modes_, mean_velocity_, time, [](const WomersleyMode& m) { return m.wall_shear(); });
+    const Complex waves =
+        sum_modes(modes_, mean_velocity_, time, [](const WomersleyMode& m) { return m.wall_shear(); });
     return viscosity_ / radius_ * (steady + waves).real();
 }
 
 double WomersleyProfile::pressure_gradient(double time) const {
     const Complex steady = mean_velocity_.mean / WomersleyMode(section_, 0).mobility();
-    const Complex waves = sum_modes(modes_, mean_velocity_, time, [](const WomersleyMode& m) { return 1.0 / m.mobility(); });
+    const Complex waves =
+        sum_modes(modes_, mean_velocity_, time, [](const WomersleyMode& m) { return 1.0 / m.mobility(); });
     return viscosity_ / (radius_ * radius_) * (steady + waves).real();
 }
 
@@ -180,4 +183,4 @@ FourierSeries make_womersley_flow(Section section, double radius, double density
     return flow;
 }
 
-}  // namespace patency
+}   // namespace patency

@@ -12,8 +12,8 @@
 namespace patency {
 
 enum class Section {
-    circular,  ///< a disc of radius a; area pi a^2
-    planar,    ///< a gap of half width a, per metre of depth; area 2 a
+    circular,   ///< a disc of radius a; area pi a^2
+    planar,     ///< a gap of half width a, per metre of depth; area 2 a
 };
 
 /// Area of the section [m2; planar: m2 per metre of depth], `radius` the radius or half gap [m].
@@ -51,8 +51,8 @@ private:
     Section section_;
     double alpha_;
     std::complex<double> z_;
-    std::complex<double> mean_;   // mean of the numerator, with the normalisation of from_series or of 1 - I_0/I_0
-    std::complex<double> scale_;  // e^(-z) I_0(z) or e^(-z) cosh(z)
+    std::complex<double> mean_;    // mean of the numerator, with the normalisation of from_series or of 1 - I_0/I_0
+    std::complex<double> scale_;   // e^(-z) I_0(z) or e^(-z) cosh(z)
     std::complex<double> wall_shear_, mobility_;
 };
 
@@ -98,4 +98,4 @@ private:
 FourierSeries make_womersley_flow(Section section, double radius, double density, double viscosity,
                                   const FourierSeries& pressure_gradient);
 
-}  // namespace patency
+}   // namespace patency

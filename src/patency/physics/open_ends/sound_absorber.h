@@ -11,10 +11,12 @@ namespace patency {
 struct SoundAbsorber {
     double impedance = 0;   ///< rho c / A of the section [Pa s/m^3]; 0: everything comes back
     double memory = 0;      ///< of the slow mean [s]
-    double delay = 0;       ///< of the answer of an end with an imposed flow: what sound needs to where its pressure is heard, and more [s]
+    double delay =
+        0;   ///< of the answer of an end with an imposed flow: what sound needs to where its pressure is heard, and more [s]
 
-    double mean = 0;        ///< slow mean of the pressure at an imposed flow [Pa], of the flow out at an imposed pressure [m^3/s]
-    double let_out = 0;     ///< beside an imposed flow [m^3/s]
+    double mean =
+        0;   ///< slow mean of the pressure at an imposed flow [Pa], of the flow out at an imposed pressure [m^3/s]
+    double let_out = 0;   ///< beside an imposed flow [m^3/s]
 
     bool is_there() const { return impedance > 0; }
 
@@ -27,4 +29,4 @@ struct SoundAbsorber {
     void follow(double value, double dt) { mean += -std::expm1(-dt / memory) * (value - mean); }
 };
 
-}  // namespace patency
+}   // namespace patency

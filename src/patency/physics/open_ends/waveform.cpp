@@ -63,8 +63,7 @@ void close_table(std::vector<double>& times, std::vector<double>& values, std::o
 
 /// Slopes at the points such that the cubic through two of them stays between their values: the weighted harmonic mean
 /// of the neighbouring chords, zero where they differ in sign (Fritsch and Butland 1984).
-std::vector<double> make_monotone_slopes(std::span<const double> times, std::span<const double> values,
-                                         Repeat repeat) {
+std::vector<double> make_monotone_slopes(std::span<const double> times, std::span<const double> values, Repeat repeat) {
     const std::size_t count = times.size();
     std::vector<double> width(count - 1), chord(count - 1), slopes(count);
     for (std::size_t i = 0; i + 1 < count; ++i) {
@@ -86,7 +85,7 @@ std::vector<double> make_monotone_slopes(std::span<const double> times, std::spa
     return slopes;
 }
 
-}  // namespace
+}   // namespace
 
 double FourierSeries::frequency(std::size_t k) const { return 2 * pi * double(k) / period; }
 
@@ -244,4 +243,4 @@ double smooth_ramp(double time, double duration) {
     return 0.5 * (1 - std::cos(pi * time / duration));
 }
 
-}  // namespace patency
+}   // namespace patency

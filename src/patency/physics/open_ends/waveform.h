@@ -32,13 +32,13 @@ struct FourierSeries {
 /// How a table is read between its points.
 enum class Interpolation {
     linear,
-    monotone_cubic,  ///< continuous slope, no overshoot between points (Fritsch and Butland 1984)
+    monotone_cubic,   ///< continuous slope, no overshoot between points (Fritsch and Butland 1984)
 };
 
 /// What a table means outside its own times.
 enum class Repeat {
-    periodic,  ///< it repeats
-    once,      ///< the first and the last value hold
+    periodic,   ///< it repeats
+    once,       ///< the first and the last value hold
 };
 
 class Waveform {
@@ -72,7 +72,7 @@ private:
 
         std::size_t find_piece(double time) const;   // time within times.front()..times.back()
         double value(double time) const;
-        double integral(double time) const;          // from times[0] to time
+        double integral(double time) const;   // from times[0] to time
     };
 
     double integral(double time) const;   // from an arbitrary, fixed origin
@@ -104,4 +104,4 @@ FourierSeries make_fourier_series(const Waveform& waveform, std::size_t modes);
 /// A duration of zero is a step at time 0.
 double smooth_ramp(double time, double duration);
 
-}  // namespace patency
+}   // namespace patency

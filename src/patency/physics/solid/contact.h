@@ -47,7 +47,8 @@ struct FrictionState {
 
 /// stick: before the step [m]; slide: how the point moved against the surface in the step [m]; normal: of the surface, unit;
 /// push: its normal force, >= 0 [N]; stiffness of the spring [N/m].                                        THEORY (21.8)
-inline FrictionState friction(const Vec3& stick, const Vec3& slide, const Vec3& normal, double push, double stiffness, double coefficient) {
+inline FrictionState friction(const Vec3& stick, const Vec3& slide, const Vec3& normal, double push, double stiffness,
+                              double coefficient) {
     const Vec3 stretched = stick + slide;
     const Vec3 trial = stretched - dot(stretched, normal) * normal;   // the surface may have turned
     const double length = norm(trial), most = coefficient * push / stiffness;

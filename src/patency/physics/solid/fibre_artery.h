@@ -19,10 +19,10 @@ struct Fibres {
 /// carry no pressure, and the stress is continuous where they begin to pull. kappa: 0 all along the mean direction, 1/3
 /// isotropic.
 struct FibreArtery {
-    double shear;              ///< c: shear modulus of the matrix [Pa]
-    double stiffness, growth;  ///< k1 [Pa], k2 [1] of the fibres, above zero
-    double dispersion;         ///< kappa, 0 to 1/3
-    double bulk;               ///< K [Pa]
+    double shear;               ///< c: shear modulus of the matrix [Pa]
+    double stiffness, growth;   ///< k1 [Pa], k2 [1] of the fibres, above zero
+    double dispersion;          ///< kappa, 0 to 1/3
+    double bulk;                ///< K [Pa]
 
     /// Of the matrix: what the tissue shows where the fibres do not pull.
     ElasticModuli moduli() const { return {shear, bulk}; }
@@ -61,7 +61,8 @@ struct FibreArtery {
         double w1 = 0.5 * shear;
         Mat3 S = 0.5 * bulk * (J2 - 1) * inverse(C);
         for (const Vec3& a : {fibres.first, fibres.second}) {
-            const double E = dispersion * (i1 - 3) + (1 - 3 * dispersion) * (dot(a, C * a) - 1), w = fibre_slope(std::max(E, 0.0));
+            const double E = dispersion * (i1 - 3) + (1 - 3 * dispersion) * (dot(a, C * a) - 1),
+                         w = fibre_slope(std::max(E, 0.0));
             w1 += dispersion * w;
             S += 2 * (1 - 3 * dispersion) * w * outer(a, a);
         }

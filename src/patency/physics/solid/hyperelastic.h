@@ -145,7 +145,8 @@ struct Yeoh {
     ElasticModuli moduli() const { return {2 * c1, bulk}; }
     double wave_modulus(const Mat3& F) const {
         const Mat3 b = isochoric_left(F, determinant(F)), away = deviator(b);
-        const double i1 = trace(b), bend = std::max(2 * c2 + 6 * c3 * (i1 - 3), 0.0);   // W'' in I1, |dI1/dF| = |2 dev b F^-T|
+        const double i1 = trace(b),
+                     bend = std::max(2 * c2 + 6 * c3 * (i1 - 3), 0.0);   // W'' in I1, |dI1/dF| = |2 dev b F^-T|
         return isochoric_wave_modulus(F, 2 * std::max(slope(i1), c1), bulk) +
                4 * bend * double_dot(away, away) * stretch_bound(inverse(F));
     }
@@ -164,7 +165,8 @@ struct Yeoh {
         const Mat<T> c = cofactor(F);
         const T J = dot(F.x, c.x);
         const Mat<T> b = isochoric_left(F, J);
-        const Mat<T> tau = isochoric_kirchhoff(b, slope(trace(b)), T(0)) + volumetric_kirchhoff(bulk, J) * identity<T>();
+        const Mat<T> tau =
+            isochoric_kirchhoff(b, slope(trace(b)), T(0)) + volumetric_kirchhoff(bulk, J) * identity<T>();
         return (T(1) / J) * (tau * c);
     }
     Mat3 pk2(const Mat3& C) const {

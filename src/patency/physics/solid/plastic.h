@@ -14,10 +14,10 @@ namespace patency {
 /// Yield stress over equivalent plastic strain a >= 0: y0 + H a + (y_inf - y0) (1 - exp(-d a)).     THEORY (19.11)
 /// Linear hardening: y_inf = y0; Voce: H = 0 or what remains of it at large strain.
 struct Hardening {
-    double yield = 0;              ///< y0 [Pa]
-    double slope = 0;              ///< H [Pa]
-    double saturation = 0;         ///< y_inf [Pa]; below y0: none
-    double rate = 0;               ///< d [1]
+    double yield = 0;        ///< y0 [Pa]
+    double slope = 0;        ///< H [Pa]
+    double saturation = 0;   ///< y_inf [Pa]; below y0: none
+    double rate = 0;         ///< d [1]
 
     double rise() const { return saturation > yield ? saturation - yield : 0.0; }
     double stress(double a) const {
@@ -43,8 +43,8 @@ struct PlasticState {
 };
 
 struct PlasticStress {
-    Mat3 kirchhoff;      ///< tau [Pa]
-    PlasticState state;  ///< after the step
+    Mat3 kirchhoff;       ///< tau [Pa]
+    PlasticState state;   ///< after the step
 };
 
 struct J2Plastic {

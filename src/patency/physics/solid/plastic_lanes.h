@@ -26,12 +26,14 @@ inline constexpr double furthest_series = 0.1;
 
 /// F, C_p^-1 and a before, lane by lane; det F > 0.
 template <class P>
-PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<P>& F, const Sym<P>& inverse_plastic, const P& strain) {
+PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<P>& F, const Sym<P>& inverse_plastic,
+                                                const P& strain) {
     const P one = number<P>(1), bulk = number<P>(law.elastic.bulk), shear = number<P>(law.elastic.shear);
     const Sym<P> b = congruent(F, inverse_plastic), X = plus_unit(b, -one);
     // ln(1 + X)/2 = artanh Z, Z = X (2 + X)^-1
     const Sym<P> Z = commuting_product(X, inverse(plus_unit(X, number<P>(2)))), ZZ = commuting_product(Z, Z);
-    const Sym<P> fifth = plus_unit(number<P>(1.0 / 7) * ZZ, number<P>(1.0 / 5)), third = plus_unit(commuting_product(ZZ, fifth), number<P>(1.0 / 3));
+    const Sym<P> fifth = plus_unit(number<P>(1.0 / 7) * ZZ, number<P>(1.0 / 5)),
+                 third = plus_unit(commuting_product(ZZ, fifth), number<P>(1.0 / 3));
     const Sym<P> e = commuting_product(Z, plus_unit(commuting_product(ZZ, third), one));
     const P volume = trace(e);
     const Sym<P> distortion = plus_unit(e, number<P>(-1.0 / 3) * volume);
@@ -52,11 +54,16 @@ PATENCY_INLINE PlasticLanes<P> stress_by_series(const J2Plastic& law, const Mat<
     if (flows) {   // b_e = b exp(N), N = -2 (1 - kept) dev e
         const Sym<P> N = (number<P>(-2) * (one - kept)) * distortion;
         Sym<P> exponential{one, one, one, number<P>(0), number<P>(0), number<P>(0)};
-        for (int k = 7; k > 0; --k) exponential = plus_unit(number<P>(1.0 / k) * commuting_product(N, exponential), one);
+        for (int k = 7; k > 0; --k)
+            exponential = plus_unit(number<P>(1.0 / k) * commuting_product(N, exponential), one);
         const Sym<P> after = congruent(result.inverse, commuting_product(b, exponential));
         Sym<P>& now = result.inverse_plastic;
-        for (const auto& [to, from] : {std::pair{&now.xx, &after.xx}, {&now.yy, &after.yy}, {&now.zz, &after.zz}, {&now.xy, &after.xy},
-                                       {&now.xz, &after.xz}, {&now.yz, &after.yz}})
+        for (const auto& [to, from] : {std::pair{&now.xx, &after.xx},
+                                       {&now.yy, &after.yy},
+                                       {&now.zz, &after.zz},
+                                       {&now.xy, &after.xy},
+                                       {&now.xz, &after.xz},
+                                       {&now.yz, &after.yz}})
             for (int l = 0; l < P::lanes; ++l)
                 if (kept[l] != 1) to->v[l] = (*from)[l];   // the others keep theirs, to the bit
     }

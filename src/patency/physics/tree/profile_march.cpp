@@ -60,8 +60,8 @@ std::optional<double> find_step(const TreeBlood& blood, double length, double ri
             const bool at_wall = i + 1 == rings;
             const double v = speed[i], v_in = i > 0 ? speed[i - 1] : v, v_out = at_wall ? 0 : speed[i + 1];
             const double shear = std::abs(v - v_out) / (edges.spacing[i + 1] * radius);
-            const double friction = blood.viscosity_at(shear) * 2 * std::numbers::pi * edges.radius[i + 1] * length /
-                                    edges.spacing[i + 1];
+            const double friction =
+                blood.viscosity_at(shear) * 2 * std::numbers::pi * edges.radius[i + 1] * length / edges.spacing[i + 1];
             escaped = outward + blood.density * before[i] * ring_from - ring_mass * v;
             const double to_outer = at_wall ? 0 : escaped;
             // Blood at rest brings nothing from upstream. What runs back there is as hard to move as what runs on; what it
@@ -69,18 +69,20 @@ std::optional<double> find_step(const TreeBlood& blood, double length, double ri
             const double upstream = blood.density * std::abs(before[i]) * ring_from;
             const double from_inner = std::max(outward, 0.0) + inner_friction;
             const double from_outer = std::max(-to_outer, 0.0) + friction;
-            const double force = upstream * (before[i] - v) + from_inner * (v_in - v) + from_outer * (v_out - v) + push * change;
+            const double force =
+                upstream * (before[i] - v) + from_inner * (v_in - v) + from_outer * (v_out - v) + push * change;
 
             const double by_inner_mass = outward > 0 ? v_in - v : 0, by_outer_mass = to_outer < 0 ? v_out - v : 0;
             const double by_mass = by_inner_mass - by_outer_mass;
-            const double by_own = -(upstream + from_inner + from_outer) + from_inner * inner.next + by_mass * mass.next +
-                                  by_outer_mass * ring_mass;
+            const double by_own = -(upstream + from_inner + from_outer) + from_inner * inner.next +
+                                  by_mass * mass.next + by_outer_mass * ring_mass;
             left[i].constant = -(force + from_inner * inner.constant + by_mass * mass.constant) / by_own;
             left[i].next = at_wall ? 0 : -from_outer / by_own;
             left[i].pressure = -(push + from_inner * inner.pressure + by_mass * mass.pressure) / by_own;
 
             const double by_speed = mass.next - ring_mass;
-            mass = {mass.constant + by_speed * left[i].constant, by_speed * left[i].next, mass.pressure + by_speed * left[i].pressure};
+            mass = {mass.constant + by_speed * left[i].constant, by_speed * left[i].next,
+                    mass.pressure + by_speed * left[i].pressure};
             inner = left[i];
             outward = to_outer, inner_friction = friction;
         }
@@ -98,8 +100,8 @@ std::optional<double> find_step(const TreeBlood& blood, double length, double ri
 }
 
 /// The same, in two halves where the whole is not found: behind a throat that lets next to nothing through a jet changes too much.
-std::optional<double> step(const TreeBlood& blood, double length, double ring_from, double ring_to, double flow, Rings& speed,
-                           int halvings = 0) {
+std::optional<double> step(const TreeBlood& blood, double length, double ring_from, double ring_to, double flow,
+                           Rings& speed, int halvings = 0) {
     const Rings before = speed;
     if (const auto change = find_step(blood, length, ring_from, ring_to, flow, speed)) return change;
     constexpr int most_halvings = 8;
@@ -144,8 +146,8 @@ double TreeProfile::at(double share) const {
     return speed[rings - 1] * std::clamp(2 * (rings - 0.5 - x), 0.0, 1.0);
 }
 
-ProfileAlong march_profile(const TreeBlood& blood, std::span<const double> arc, std::span<const double> area, double flow,
-                           const TreeProfile& start) {
+ProfileAlong march_profile(const TreeBlood& blood, std::span<const double> arc, std::span<const double> area,
+                           double flow, const TreeProfile& start) {
     ProfileAlong along{std::vector<double>(arc.size(), 0.0), std::vector<TreeProfile>(arc.size(), start)};
     if (!(flow > 0)) return along;
     Rings speed = start.speed;

@@ -37,7 +37,7 @@ struct ProfileAlong {
 
 /// A flow >= 0 [m^3/s] that comes with a profile. `arc` rises [m], `area` [m^2]; as many as stations. Pressures are NAN from
 /// where no profile is found on: in a throat through which no pressure drives such a flow.             THEORY.md (15.1)
-ProfileAlong march_profile(const TreeBlood& blood, std::span<const double> arc, std::span<const double> area, double flow,
-                           const TreeProfile& first);
+ProfileAlong march_profile(const TreeBlood& blood, std::span<const double> arc, std::span<const double> area,
+                           double flow, const TreeProfile& first);
 
 }   // namespace patency

@@ -76,7 +76,8 @@ struct BranchBegin {
     double pressure;
     TreeProfile profile;
 };
-BranchBegin branch_begin(double density, double pressure, double parent_speed, double speed, double turn) {   // THEORY.md (15.4)
+BranchBegin branch_begin(double density, double pressure, double parent_speed, double speed,
+                         double turn) {   // THEORY.md (15.4)
     const TreeProfile profile = TreeProfile::between(branch_entrance);
     const double stream = parent_speed * std::cos(0.75 * turn);
     if (!(speed > 0)) return {pressure, profile};   // runs back into its parent
@@ -143,8 +144,10 @@ Eigen::MatrixXd end_slopes(const TreeCase& tree, const Topology& t, const std::v
         if (const auto* r = std::get_if<TreeResistance>(&end)) slopes(k, k) -= r->resistance;
         slopes(k, n) = 1;
     }
-    if (std::holds_alternative<TreeFlowRate>(tree.inlet)) slopes.row(n).head(n).setOnes();
-    else slopes(n, n) = 1;
+    if (std::holds_alternative<TreeFlowRate>(tree.inlet))
+        slopes.row(n).head(n).setOnes();
+    else
+        slopes(n, n) = 1;
     return slopes;
 }
 
@@ -209,7 +212,8 @@ TreeFlow solve_tree(const TreeCase& tree) {
     TreeFlow answer;
     Eigen::VectorXd r = scaled(residual(x));
     Eigen::MatrixXd jacobian = slopes(x);
-    for (int halvings = 0; !(r.allFinite() && jacobian.allFinite()) && halvings < 60; ++halvings) {   // too much for a throat
+    for (int halvings = 0; !(r.allFinite() && jacobian.allFinite()) && halvings < 60;
+         ++halvings) {   // too much for a throat
         x.head(leaves) *= 0.5;
         r = scaled(residual(x)), jacobian = slopes(x);
     }

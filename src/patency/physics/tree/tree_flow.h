@@ -43,11 +43,11 @@ struct TreeCase {
 
 /// The answer. Arrays are as the branches, stations as theirs.
 struct TreeFlow {
-    std::vector<double> flow;                    ///< [m^3/s], along the branch
-    std::vector<std::vector<double>> pressure;   ///< static [Pa]
+    std::vector<double> flow;                        ///< [m^3/s], along the branch
+    std::vector<std::vector<double>> pressure;       ///< static [Pa]
     std::vector<std::vector<TreeProfile>> profile;   ///< from upstream down, also where blood runs back
-    double inlet_pressure = 0;                   ///< static, at the first station of the first branch [Pa]
-    int iterations = 0;                          ///< Broyden steps
+    double inlet_pressure = 0;                       ///< static, at the first station of the first branch [Pa]
+    int iterations = 0;                              ///< Broyden steps
 };
 
 /// Flows and pressures that agree with all ends. Throws DeckError if the ends leave the pressure open (all are flows), and
