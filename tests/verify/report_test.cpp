@@ -48,5 +48,25 @@ TEST(VerificationReport, KeepsWhatWasNotRunAgain) {
     EXPECT_EQ(read_file(kept / "poiseuille_profile.svg"), "<svg>poiseuille</svg>");
 }
 
+TEST(VerificationReport, SaysWhichRunStandsBesideThePapersTableSixAndHowItsStentWasOpened) {
+    const ScratchFolder folder;
+    const fs::path document = folder / "docs/VERIFICATION.md", run = folder / "run";
+    put(folder / "out", "poiseuille", 0.25, "2026-01-02");
+    const auto written = [&](const char* summary) {
+        fs::create_directories(run);
+        write_file(run / "summary.json", summary);
+        write_verification_report(folder / "out", document, run);
+        return read_file(document);
+    };
+    const std::string quick = written(R"({"name": "one", "deploy": {"is_mechanical": false}})");
+    EXPECT_PRED2(has, quick, "`patency run cases/one.yaml`");
+    EXPECT_PRED2(has, quick, "opened without mechanics");
+    const std::string pushed = written(R"({"name": "two", "deploy": {"is_mechanical": true}})");
+    EXPECT_PRED2(has, pushed, "`patency run cases/two.yaml`");
+    EXPECT_PRED2(has, pushed, "opened by a balloon against a wall that is a solid");
+    write_verification_report(folder / "out", document, {});   // and it is kept
+    EXPECT_EQ(read_file(document), pushed);
+}
+
 }   // namespace
 }   // namespace patency

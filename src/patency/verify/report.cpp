@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* table_six_file = "stented_bifurcation.summary.json";
+constexpr const char* table_six_file = "table_six.summary.json";
 
 std::string table_of(const CaseReport& report) {
     std::string text = "| Figure | Value | Unit | Bar | |\n|---|---|---|---|---|\n";
@@ -97,12 +97,16 @@ void write_verification_report(const fs::path& out, const fs::path& document, co
         "\n## The reference paper's tables\n\nWhat arXiv 2511.08745 prints, what its scheme gives here (with its "
         "misprints mended), and ours.\n\n" +
         paper_figures_table(reports);
-    if (fs::exists(kept / table_six_file))
-        paper +=
-            "\nIts table VI, before and after the stent, beside `patency run cases/stented_bifurcation.yaml` (made by "
-            "`--run OUT`). The stent is opened without mechanics; what\n"
-            "the paper calls FFR is a ratio of pressures above the lowest outlet's.\n\n" +
-            paper_table_six(read_summary(kept / table_six_file));
+    if (fs::exists(kept / table_six_file)) {
+        const Json run_summary = read_summary(kept / table_six_file);
+        const bool is_mechanical = run_summary.at("deploy").value("is_mechanical", false);
+        paper += fmt::format(
+            "\nIts table VI, before and after the stent, beside `patency run cases/{}.yaml` (made by `--run OUT`). The "
+            "stent is opened {}; what\nthe paper calls FFR is a ratio of pressures above the lowest outlet's.\n\n",
+            run_summary.at("name").get<std::string>(),
+            is_mechanical ? "by a balloon against a wall that is a solid" : "without mechanics");
+        paper += paper_table_six(run_summary);
+    }
     write_file(document,
                "# Verification\n\nEvery case below has a known answer. The tables are written by `patency verify "
                "--level full -o out` and\n"
