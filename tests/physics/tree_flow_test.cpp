@@ -117,7 +117,7 @@ TEST(TreeFlow, ATurnCostsAndStraightOnAtTheSameSpeedDoesNot) {
     const double first = solve_tree(one).inlet_pressure;
     const double dynamic = 0.5 * rho * std::pow(2e-6 / disc(3e-3), 2);
     EXPECT_GT(straight, 2 * first + 0.05 * dynamic);   // friction and a part of an entrance, no more
-    EXPECT_LT(straight, 2 * first + 1.25 * dynamic);
+    EXPECT_LT(straight, 2 * first + 0.7 * dynamic);
     tree.branches[1].turn = pi / 2;
     EXPECT_NEAR(solve_tree(tree).inlet_pressure, straight + 2 * (1 - std::cos(0.375 * pi)) * dynamic, 1e-6);
 }
@@ -149,6 +149,24 @@ TEST(TreeFlow,
     EXPECT_GT(answer.flow[0], 0);
     EXPECT_LT(answer.flow[0], disc(0.15e-3) * std::sqrt(2 * 10000 / rho));
     EXPECT_NEAR(answer.pressure[0].back(), 0, 1e-2);
+}
+
+TEST(TreeFlow, NoGivenFlowEndsInAPressureThatIsNotANumber) {   // through throats that nothing drives it through
+    int refused = 0;
+    for (double depth : {0.85, 0.93, 0.97})
+        for (double width : {1e-3, 4e-3})
+            for (double flow : {1e-6, 1e-5}) {
+                TreeBranch throat = tube(-1, 0.03, 3e-3, 3e-3, 301);
+                for (std::size_t k = 0; k < throat.arc.size(); ++k)
+                    throat.area[k] *= std::pow(1 - depth * std::exp(-std::pow((throat.arc[k] - 0.015) / width, 2)), 2);
+                try {
+                    const TreeFlow answer = solve_tree({{throat}, blood, TreePressure{0}, {TreeFlowRate{flow}}, 0});
+                    EXPECT_TRUE(std::isfinite(answer.pressure[0].back())) << depth << " " << width << " " << flow;
+                } catch (const GeometryError&) {
+                    ++refused;
+                }
+            }
+    EXPECT_GT(refused, 0);
 }
 
 TEST(TreeFlow, WhatCannotBeSolvedIsSaid) {

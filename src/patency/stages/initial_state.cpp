@@ -215,14 +215,14 @@ std::vector<double> branch_flows(const Scene& scene, const std::vector<double>& 
 void scale_to_flows(Scene& scene, const std::vector<double>& out) {
     FluidParticles& fluid = scene.fluid;
     const std::vector<double> flows = branch_flows(scene, out);
-    const EstimatedField field(*scene.vessel, *scene.estimate);
+    const auto field = estimated_field(scene);
     const std::vector<double> carried =
-        field.carried({&fluid.position[0], fluid.size()}, {&fluid.velocity[0], fluid.size()}, fluid.volume[0]);
+        field->carried({&fluid.position[0], fluid.size()}, {&fluid.velocity[0], fluid.size()}, fluid.volume[0]);
     constexpr double most = 1.25;   // where more lacks something else is wrong
     std::vector<double> share;
     for (std::size_t b = 0; b < flows.size(); ++b)
         share.push_back(flows[b] * carried[b] > 0 ? std::clamp(flows[b] / carried[b], 1 / most, most) : 1);
-    for (std::size_t i = 0; i < fluid.size(); ++i) fluid.velocity[i] *= share[field.branch_at(fluid.position[i])];
+    for (std::size_t i = 0; i < fluid.size(); ++i) fluid.velocity[i] *= share[field->branch_at(fluid.position[i])];
 }
 
 /// The flow on cells, where the case starts from it; else none. Outlets' capacitors begin as it leaves them.

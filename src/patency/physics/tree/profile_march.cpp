@@ -38,10 +38,10 @@ struct Eliminated {
     double constant = 0, next = 0, pressure = 0;
 };
 
-/// Speeds of the rings one step on, and the pressure's change [Pa], if they are found: implicit, by Newton's method. Unknowns are the rings' speeds,
-/// the mass that crosses each edge outward (which follows from the speeds within) and the pressure, so that a round costs
-/// two sweeps. Without the slopes of the mass the rounds are many, and behind a narrow throat without end.
-///                                                                                             THEORY.md (15.2), (15.3)
+/// Speeds of the rings one step on, and the pressure's change [Pa], if they are found: implicit, by Newton's method.
+/// Unknowns are the rings' speeds, the mass that crosses each edge outward (which follows from the speeds within) and the
+/// pressure, so that a round costs two sweeps. Without the slopes of the mass the rounds are many, and behind a narrow throat
+/// without end.                                                                           THEORY.md (15.2), (15.3)
 std::optional<double> find_step(const TreeBlood& blood, double length, double ring_from, double ring_to, double flow,
                                 Rings& speed) {
     const RingEdges& edges = ring_edges();

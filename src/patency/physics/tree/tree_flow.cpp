@@ -72,12 +72,12 @@ ProfileAlong branch_along(const TreeBlood& blood, const TreeBranch& branch, doub
 
 /// What a branch begins with at its parent's end: the pressure that momentum along the turned stream leaves (Hager 1984), and a
 /// profile. A branch that takes its stream slower than it comes begins with a jet, whose pressure comes back as it spreads.
+///                                                                                                  THEORY.md (15.4)
 struct BranchBegin {
     double pressure;
     TreeProfile profile;
 };
-BranchBegin branch_begin(double density, double pressure, double parent_speed, double speed,
-                         double turn) {   // THEORY.md (15.4)
+BranchBegin branch_begin(double density, double pressure, double parent_speed, double speed, double turn) {
     const TreeProfile profile = TreeProfile::between(branch_entrance);
     const double stream = parent_speed * std::cos(0.75 * turn);
     if (!(speed > 0)) return {pressure, profile};   // runs back into its parent
@@ -177,7 +177,9 @@ TreeFlow solve_tree(const TreeCase& tree) {
             const std::size_t leaf = t.leaves[std::size_t(k)];
             const TreeEnd& end = tree.outlets[leaf];
             const auto* given = std::get_if<TreeFlowRate>(&end);
-            r[k] = given ? x[k] - given->flow : mismatch(end, along[leaf].pressure.back(), flows[leaf]);
+            const double pressure = along[leaf].pressure.back();
+            r[k] = given ? x[k] - given->flow : mismatch(end, pressure, flows[leaf]);
+            if (!std::isfinite(pressure)) r[k] = NAN;   // a flow that is given does not pass either
         }
         r[leaves] = inlet_flow ? flows[0] - inlet_flow->flow : x[leaves] - inlet_pressure->pressure;
         return r;
@@ -212,8 +214,8 @@ TreeFlow solve_tree(const TreeCase& tree) {
     TreeFlow answer;
     Eigen::VectorXd r = scaled(residual(x));
     Eigen::MatrixXd jacobian = slopes(x);
-    for (int halvings = 0; !(r.allFinite() && jacobian.allFinite()) && halvings < 60;
-         ++halvings) {   // too much for a throat
+    // Too much for a throat: less.
+    for (int halvings = 0; !(r.allFinite() && jacobian.allFinite()) && halvings < 60; ++halvings) {
         x.head(leaves) *= 0.5;
         r = scaled(residual(x)), jacobian = slopes(x);
     }
