@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 struct InitOptions {
     std::string path, unit, space, inlet, name, out = "case.yaml", budget = "1 h";
     int threads = 0;
+    int heart_rate = 0;
     bool force = false, stent = false;
 };
 
@@ -62,6 +63,7 @@ void init(const InitOptions& o) {
     if (!o.space.empty()) g.space = o.space;
     if (!o.inlet.empty()) g.inlet = o.inlet;
     settings.with_stent = o.stent;
+    if (o.heart_rate > 0) settings.period = 60.0 / o.heart_rate;
     settings.name = o.name.empty() ? resolved(o.path).stem().string() : o.name;
     if (!is_utf8_text(settings.name)) throw UsageError("the name of the case is no UTF-8 text; give one with --name");
 
@@ -101,6 +103,10 @@ void add_init_command(const Command& program, ExitCode&) {
     command.add_option("--budget", o->budget, "how long the flow may take on this machine").with_default();
     command.add_option("--threads", o->threads, "how many threads; one per core if not given").between(1, 1024);
     command.add_option("-o,--out", o->out, "the deck").with_default();
+    command
+        .add_option("--heart-rate", o->heart_rate,
+                    "beats a minute: a flow that pulses with the aorta's pressure; a steady one if not given")
+        .between(30, 180);
     command.add_flag(
         "--stent", o->stent,
         "with the stent that it proposes for the worst lesion, for patency run; a comment in the deck if not given");

@@ -31,7 +31,7 @@ TEST(Documents, TheManualHasEveryCommandAndOption) {
     ASSERT_GT(commands().size(), 10u);
     for (const std::string& command : commands()) {
         EXPECT_NE(plain.find(".SS patency " + command), plain.npos) << command;
-        const std::set<std::string> options = matches(patency(command + " --help").output, "(--[a-z]+)");
+        const std::set<std::string> options = matches(patency(command + " --help").output, "(--[a-z-]+)");
         for (const std::string& option : options)
             if (option != "--help") {
                 EXPECT_NE(plain.find(option), plain.npos) << command << ' ' << option;
@@ -89,9 +89,9 @@ TEST(Documents, ZshCompletesCommandsOptionsWordsAndFiles) {
         EXPECT_NE(program.find("\n        '" + command + ":"), program.npos) << command;
         const std::string own = zsh_function(zsh, "_patency_" + command);
         ASSERT_FALSE(own.empty()) << command;
-        const std::set<std::string> options = matches(patency(command + " --help").output, "\n  (?:-.,)?(--[a-z]+)");
+        const std::set<std::string> options = matches(patency(command + " --help").output, "\n  (?:-.,)?(--[a-z-]+)");
         EXPECT_TRUE(options.count("--help")) << command;
-        EXPECT_EQ(matches(own, "\n        '(?:\\*|\\([^)]*\\))?(--[a-z]+)=?\\["), options) << own;
+        EXPECT_EQ(matches(own, "\n        '(?:\\*|\\([^)]*\\))?(--[a-z-]+)=?\\["), options) << own;
     }
     EXPECT_NE(zsh_function(zsh, "_patency_verify").find(":(quick full)'"), zsh.npos);
     EXPECT_NE(zsh_function(zsh, "_patency_flow").find("'*--set=["), zsh.npos) << "may be repeated";

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "patency/io/csv.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "tests/app/program.h"
@@ -44,6 +47,38 @@ TEST_F(Init, ItsDeckGoesThroughCheckAndEstimate) {
     // The bed takes 0.279 m/s through 3 mm.
     EXPECT_NEAR(read_summary(folder_ / "out/summary.json")["openings"]["outlet_1"]["flow_m3_per_s"].get<double>(),
                 0.279 * M_PI * 2.25e-6, 2e-8);
+}
+
+TEST_F(Init, OfAHeartThatBeatsPulsesAndRepeatsSoon) {
+    ASSERT_EQ(patency(fmt::format("init {} --unit mm --heart-rate 75 -o {}", tube(), deck())).exit_code, 0);
+    const std::string text = contents_of(deck());
+    for (const char* line : {"mode: periodic", "period: \"0.8 s\"", "outlet_1: {type: coronary}", "pulse: \"40 mmHg\""})
+        EXPECT_TRUE(has(text, line)) << line;
+    const Result check = patency("check " + deck());
+    EXPECT_EQ(check.exit_code, 0) << check.output;
+    const Result flow = patency(fmt::format("flow {} --set numerics.across=5 --set numerics.steps_per_period=80 -o {}",
+                                            deck(), (folder_ / "out").string()));
+    ASSERT_EQ(flow.exit_code, 0) << flow.output;
+    const auto summary = read_summary(folder_ / "out/summary.json");
+    // A linear bed takes at the mean pressure what it was tuned to, and begins in the beat that it repeats.
+    EXPECT_NEAR(summary["openings"]["outlet_1"]["flow_m3_per_s"].get<double>() / (0.279 * M_PI * 2.25e-6), 1, 0.02);
+    EXPECT_LT(summary["time_s"].get<double>(), 3.3);
+    EXPECT_GT(summary["openings"]["outlet_1"]["myocardial_compliance_m3_per_pa"].get<double>(), 0);
+    // Systole is the first 0.335 s of a beat; a left coronary artery flows mostly after it.
+    const CsvTable waves = read_csv(folder_ / "out/waveforms.csv");
+    const auto column = [&](const std::string& name) {
+        const auto at = std::find(waves.names.begin(), waves.names.end(), name);
+        EXPECT_NE(at, waves.names.end()) << name;
+        return waves.columns.at(std::size_t(at - waves.names.begin()));
+    };
+    const std::vector<double> times = column("time_s"), flows = column("outlet_1_flow_m3_per_s");
+    double sums[2]{}, counts[2]{};
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        if (times[k] < times.back() - 0.8) continue;
+        const bool is_diastole = std::fmod(times[k], 0.8) > 0.335;
+        sums[is_diastole] += flows[k], ++counts[is_diastole];
+    }
+    EXPECT_GT(sums[1] / counts[1], 1.3 * sums[0] / counts[0]);
 }
 
 TEST_F(Init, NeverReplacesADeckUnlessTold) {

@@ -98,6 +98,28 @@ TEST(Mistakes, MissingForAType) {
               only("13:5: openings.outlet: needs a resistance, or aorta.pressure, from which it is tuned to the bed"));
 }
 
+TEST(Mistakes, AnOutletHasAllOfItsNumbersOrNone) {
+    const auto with = [](const std::string& outlet, const std::string& more = "") {
+        return mistakes_in(pipe_with("type: pressure\n    pressure: \"0 mmHg\"", outlet) + more);
+    };
+    const std::string aorta = "aorta: {pressure: 93 mmHg}\n";
+    EXPECT_EQ(with("type: rcr", aorta), "accepted");
+    EXPECT_EQ(with("type: coronary", aorta), "accepted");
+    EXPECT_EQ(with("type: pressure", aorta), "accepted");
+    EXPECT_EQ(with("type: rcr"),
+              only("13:5: openings.outlet: needs its resistances and compliances, or aorta.pressure, from "
+                   "which it is tuned to the bed"));
+    EXPECT_EQ(with("type: pressure"),
+              only("13:5: openings.outlet: needs a pressure or a waveform, or aorta.pressure, which it has then"));
+    EXPECT_EQ(
+        with("type: rcr\n    distal_resistance: 1 Wood", aorta),
+        only("13:5: openings.outlet: has not all of its numbers: compliance is missing; without any it is tuned to "
+             "the bed"));
+    EXPECT_EQ(with("type: coronary\n    compliance: 1 mL/mmHg\n    proximal_resistance: 1 Wood", aorta),
+              only("13:5: openings.outlet: has not all of its numbers: distal_resistance, microvascular_resistance and "
+                   "myocardial_compliance are missing; without any it is tuned to the bed"));
+}
+
 TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
     const auto with = [](const std::string& geometry) {
         return mistakes_in(

@@ -208,7 +208,7 @@ struct Opening {
     double ramp = 0;                                   ///< velocity, flow, pressure: s, smooth rise from zero
     std::optional<double> resistance;                  ///< resistance: Pa s/m^3; absent: tuned to the bed
     double proximal_resistance = 0;                    ///< rcr, coronary: Pa s/m^3
-    double distal_resistance = 0;                      ///< rcr, coronary: Pa s/m^3
+    double distal_resistance = 0;                      ///< rcr, coronary: Pa s/m^3; 0: all is tuned to the bed
     double compliance = 0;                             ///< rcr; coronary, of its arteries: m^3/Pa
     double microvascular_resistance = 0;               ///< coronary: Pa s/m^3
     double myocardial_compliance = 0;                  ///< coronary: m^3/Pa of the vessels within the heart's muscle
@@ -216,14 +216,23 @@ struct Opening {
     double distal_pressure = 0;                        ///< resistance, rcr, coronary: Pa
     std::optional<double> initial_pressure;            ///< rcr, coronary: Pa in the compliance at t = 0
     bool operator==(const Opening&) const = default;
+
+    /// Its numbers are left to the bed behind it.
+    bool is_tuned() const {
+        if (type == OpeningType::resistance) return !resistance;
+        return (type == OpeningType::rcr || type == OpeningType::coronary) && distal_resistance == 0;
+    }
+    /// Its pressure is left to the aorta.
+    bool has_aortic_pressure() const { return type == OpeningType::pressure && !pressure && !waveform; }
 };
 
 struct Aorta {
     std::optional<double> pressure;   ///< Pa, mean
+    double pulse = 5332.8954966;      ///< Pa, largest less least, of a periodic flow: 40 mmHg
     bool operator==(const Aorta&) const = default;
 };
 
-/// The small vessels behind the outlets, which tell what blood they take: resistances without a value are tuned to it.
+/// The small vessels behind the outlets, which tell what blood they take: outlets without numbers are tuned to it.
 struct Bed {
     BedState state = BedState::hyperaemic;
     std::optional<double> flow;   ///< m^3/s of all such outlets together; absent: by the state and the inlet's area

@@ -270,10 +270,13 @@ private:
         for (const auto& [name, opening] : case_.openings) {
             const std::string path = "openings." + name;
             if (opening.type != OpeningType::velocity && opening.type != OpeningType::flow) is_pressure_set = true;
-            if (opening.type == OpeningType::resistance && !opening.resistance)
+            if (opening.has_aortic_pressure())
                 expect(case_.aorta.pressure.has_value(), path,
-                       "needs a resistance, or aorta.pressure, from which it is tuned to the bed",
-                       {path + ".resistance", "aorta.pressure"});
+                       "needs a pressure or a waveform, or aorta.pressure, which it has then",
+                       {path + ".pressure", "aorta.pressure"});
+            if (opening.is_tuned()) check_tuned(opening, path);
+            if (opening.type == OpeningType::rcr || opening.type == OpeningType::coronary)
+                check_windkessel(opening, path);
             if (opening.waveform) check_waveform(*opening.waveform, path + ".waveform");
             if (opening.myocardial_pressure)
                 check_waveform(*opening.myocardial_pressure, path + ".myocardial_pressure");
@@ -288,6 +291,32 @@ private:
         expect(case_.openings.empty() || is_pressure_set, "openings",
                "every opening prescribes a flow; one of them must set the pressure (pressure, resistance, rcr or "
                "coronary)");
+    }
+
+    void check_tuned(const Opening& opening, const std::string& path) {
+        const std::string what =
+            opening.type == OpeningType::resistance ? "a resistance" : "its resistances and compliances";
+        expect(case_.aorta.pressure.has_value(), path,
+               "needs " + what + ", or aorta.pressure, from which it is tuned to the bed",
+               {path + ".resistance", "aorta.pressure"});
+    }
+
+    /// All of its numbers, or none: then it is tuned. The muscle's pressure may always be left to the aorta's pulse.
+    void check_windkessel(const Opening& o, const std::string& path) {
+        const bool is_coronary = o.type == OpeningType::coronary;
+        std::vector<std::string> missing;
+        if (o.distal_resistance == 0) missing.push_back("distal_resistance");
+        if (o.compliance == 0) missing.push_back("compliance");
+        if (is_coronary && o.microvascular_resistance == 0) missing.push_back("microvascular_resistance");
+        if (is_coronary && o.myocardial_compliance == 0) missing.push_back("myocardial_compliance");
+        const bool has_some = o.proximal_resistance > 0 || missing.size() < (is_coronary ? 4u : 2u);
+        expect(!has_some || missing.empty(), path,
+               "has not all of its numbers: " + join(missing, ", ", " and ") + (missing.size() == 1 ? " is" : " are") +
+                   " missing; without any it is tuned to the bed");
+        if (is_coronary && !o.myocardial_pressure)
+            expect(case_.aorta.pressure.has_value(), path,
+                   "needs myocardial_pressure, or aorta.pressure, from whose pulse it follows",
+                   {path + ".myocardial_pressure", "aorta.pressure"});
     }
 
     void check_profile(const ProfileTable& table, const std::string& path) {

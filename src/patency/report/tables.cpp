@@ -173,15 +173,29 @@ std::string paper_table(const RunResults& results) {
 
 std::string outlet_table(const RunResults& results) {
     const Figures f(*results.summary);
-    std::string rows;
-    const std::string path = results.flows.front().path;
+    const std::string path = results.flows.front().path + "/openings";
     if (!first_part(results).contains("openings")) return {};
-    for (const auto& [name, opening] : first_part(results)["openings"].items())
-        rows += table_row({escaped(name), f.number(path + "/openings" + step(name) + "/area_m2", {"mm²", 1e6, 2}),
-                           f.scientific(path + "/openings" + step(name) + "/resistance_pa_s_per_m3", 3),
-                           f.number(path + "/openings" + step(name) + "/distal_pressure_pa", as_mmHg)});
-    return table("What lies behind the openings",
-                 {"Opening", "Area, mm²", "Resistance, Pa s/m³", "Pressure behind it, mmHg"}, rows);
+    const Json& openings = first_part(results)["openings"];
+    std::vector<std::pair<std::string, std::string>> columns{
+        {"Resistance, Pa s/m³", "/resistance_pa_s_per_m3"},
+        {"Compliance, m³/Pa", "/compliance_m3_per_pa"},
+        {"of the heart muscle's vessels, m³/Pa", "/myocardial_compliance_m3_per_pa"}};
+    std::erase_if(columns, [&](const auto& column) {
+        return std::none_of(openings.begin(), openings.end(),
+                            [&](const Json& opening) { return opening.contains(column.second.substr(1)); });
+    });
+    std::vector<std::string> head{"Opening", "Area, mm²"};
+    for (const auto& [title, key] : columns) head.push_back(title);
+    head.push_back("Pressure behind it, mmHg");
+    std::string rows;
+    for (const auto& [name, opening] : openings.items()) {
+        const std::string of = path + step(name);
+        std::vector<std::string> row{escaped(name), f.number(of + "/area_m2", {"mm²", 1e6, 2})};
+        for (const auto& [title, key] : columns) row.push_back(f.scientific(of + key, 3));
+        row.push_back(f.number(of + "/distal_pressure_pa", as_mmHg));
+        rows += table_row(row);
+    }
+    return table("What lies behind the openings", head, rows);
 }
 
 /// Every number of the deployment, whatever the run has found worth giving.

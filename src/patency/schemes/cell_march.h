@@ -24,8 +24,10 @@ struct MarchedEnd {
 
 /// Newton's steps of a step in time.
 struct MarchedStep {
-    double tolerance = 1e-4;   ///< they end when cells lack this of the greatest flow and forces so far
-    int least = 0;             ///< and not before so many
+    /// They end when cells lack this of the greatest flow and forces so far. A tenth of it takes half as many again and changes flows
+    /// through a bifurcation by 0.03 %, pressures by 0.003 % of their largest (docs/VERIFICATION.md).
+    double tolerance = 1e-3;
+    int least = 0;   ///< and not before so many
 };
 
 /// What a march works on; all but the mesh must outlive it.

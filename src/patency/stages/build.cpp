@@ -226,7 +226,7 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
     if (config.has_vessel()) scene->vessel = known ? *known : read_vessel(config);
     scene->lumen = make_lumen(config, config.geometry.surface ? &*scene->vessel : nullptr);
-    tune_outlets(scene->config, scene->lumen.openings);
+    complete_openings(scene->config, scene->lumen.openings);
     set_datum(*scene);
     if (scene->vessel) follow(*scene);
     expect_wall_names(*scene);

@@ -29,6 +29,7 @@ double start_of(const EndLaw& law) {
 deck::Case start_of(const deck::Case& config, const Scene& scene) {
     deck::Case start = config;
     start.about.mode = deck::Mode::steady;
+    const bool is_known = find_driving_pulse(config);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         deck::Opening& opening = start.openings.at(scene.ends[k].name);
         const double value = opening.waveform ? start_of(scene.laws[k]) : 0;
@@ -37,6 +38,11 @@ deck::Case start_of(const deck::Case& config, const Scene& scene) {
         if (opening.waveform && opening.type == deck::OpeningType::velocity)
             opening.velocity = value / scene.ends[k].area;
         opening.waveform.reset();
+        if (is_known && scene.laws[k].outlet && opening.type != deck::OpeningType::resistance) {
+            opening.type = deck::OpeningType::resistance;   // at once a compliance holds its pressure
+            opening.resistance = opening.proximal_resistance;
+            opening.distal_pressure = scene.laws[k].state[0];
+        }
         opening.ramp = 0;
         if (opening.profile == deck::VelocityProfile::womersley) opening.profile = deck::VelocityProfile::parabola;
     }
@@ -129,13 +135,14 @@ CellMesh place_points(Scene& scene) {
     return mesh;
 }
 
-/// Flows and pressures that the ends start from, and compliances that these have filled.
+/// Flows and pressures that the ends start from, and compliances that these have filled where no pulse tells what is in them.
 void start_ends(Scene& scene, std::span<const CellEndState> states) {
+    const bool is_known = find_driving_pulse(scene.config);
     for (std::size_t k = 0; k < states.size(); ++k) {
         EndLaw& law = scene.laws[k];
         scene.ends[k].flow = law.known_flow = states[k].flow;
         scene.ends[k].mean_pressure = law.known_pressure = states[k].pressure;
-        if (law.outlet && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
+        if (law.outlet && !is_known && !scene.config.openings.at(scene.ends[k].name).initial_pressure)
             law.state = make_steady_state(*law.outlet, states[k].flow);
     }
 }

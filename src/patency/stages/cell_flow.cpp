@@ -20,6 +20,7 @@
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/flow_means.h"
 #include "patency/stages/offenders.h"
+#include "patency/stages/outlet_summary.h"
 #include "patency/stages/stopwatch.h"
 
 namespace patency {
@@ -110,10 +111,7 @@ Json make_cell_summary(const CellScene& scene) {
                 {"mean_pressure_pa", ends[k].pressure},
                 {"mean_velocity_m_per_s", ends[k].flow / opening.area},
                 {"area_m2", opening.area}};
-        if (config.openings.at(opening.name).type == deck::OpeningType::resistance) {
-            here["resistance_pa_s_per_m3"] = scene.ends[k].resistance;
-            here["distal_pressure_pa"] = scene.ends[k].pressure;
-        }
+        add_outlet(here, config.openings.at(opening.name));
         out += ends[k].flow, through += 0.5 * std::abs(ends[k].flow);
     }
     summary["openings"] = openings;

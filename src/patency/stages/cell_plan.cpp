@@ -16,9 +16,9 @@ namespace {
 // left tree (226,000); the largest resident memory of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 1,330 MB with 226,000 (which
 // mixed forty steps; thirty take 72 MB less).
 constexpr double seconds_per_cell = 0.5e-3, bytes_per_cell = 5000, bytes_at_least = 120e6;
-// Of pipes and a Y with pressures or Windkessels behind them 4 to 8 us, six iterations in a step; a bifurcation with an aortic pressure in
-// front and Windkessels behind takes 17.
-constexpr double seconds_per_cell_and_step = 10e-6;
+// Of pipes and a Y with pressures or Windkessels behind them 3 to 6 us; of a bifurcation with an aortic pressure in front, a lesion and
+// coronary beds behind 18, ten iterations in a step.
+constexpr double seconds_per_cell_and_step = 15e-6;
 constexpr double shared = 0.8;   // of the work that a second thread takes half of
 
 /// The volume over the cube of the spacing, along the centrelines; each stretch counts once.
@@ -52,10 +52,17 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
     return inside > 0 ? lumen.volume * count / inside : 0;
 }
 
-/// Of a periodic flow.
+/// Of a periodic flow; of one that waits until it repeats, and whose beds begin in the beat of the pressure that drives it, four beats: one
+/// that feels what the vessel loses, two that are alike and one that means are taken of.
 double steps_of(const deck::Case& config) {
     if (config.about.mode == deck::Mode::steady) return 0;
-    return config.numerics.duration / *config.about.period * config.numerics.steps_per_period;
+    const bool repeats_soon = config.numerics.convergence &&
+                              std::any_of(config.openings.begin(), config.openings.end(), [](const auto& named) {
+                                  const deck::Opening& said = named.second;
+                                  return said.type == deck::OpeningType::pressure && !said.pressure;
+                              });
+    const double beats = config.numerics.duration / *config.about.period;
+    return (repeats_soon ? std::min(4.0, beats) : beats) * config.numerics.steps_per_period;
 }
 
 }   // namespace

@@ -117,7 +117,7 @@ CellPoints make_cell_points(const Lumen& lumen, double spacing) {
 std::unique_ptr<CellScene> make_cell_scene(const deck::Case& config, const Lumen& lumen, const CellPoints& points) {
     auto scene = std::make_unique<CellScene>(CellScene{
         config, lumen, make_cell_mesh(points.point, points.spacing, lumen), points.spacing_at, {}, 0, {}, {}});
-    tune_outlets(scene->config, lumen.openings);
+    complete_openings(scene->config, lumen.openings);
     std::vector<EndLaw> laws;
     for (const Opening& opening : lumen.openings) {
         const deck::Opening& said = scene->config.openings.at(opening.name);

@@ -105,7 +105,23 @@ double startup_rate(const Opening& opening, const deck::Blood& blood) {
     return blood.viscosity / blood.density / (4 * opening.radius * opening.radius);
 }
 
+/// The state that an outlet begins with: of a flow that a pulsing pressure drives the one that repeats, as if the vessel lost nothing;
+/// empty else.
+OutletState start_of(const OutletModel& outlet, const deck::Case& config) {
+    if (const deck::Waveform* pulse = find_driving_pulse(config))
+        return make_periodic_state(outlet, make_signal_waveform(*pulse, config, Dimension::pressure, 1),
+                                   config.about.period.value());
+    return make_steady_state(outlet, 0);
+}
+
 }   // namespace
+
+const deck::Waveform* find_driving_pulse(const deck::Case& config) {
+    if (config.about.mode != deck::Mode::periodic) return nullptr;
+    for (const auto& [name, said] : config.openings)
+        if (said.type == deck::OpeningType::pressure && said.waveform) return &*said.waveform;
+    return nullptr;
+}
 
 EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config) {
     try {
@@ -128,7 +144,7 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
                                   make_signal_waveform(*said.myocardial_pressure, config, Dimension::pressure, 1)};
         if (law.outlet && !(said.type == deck::OpeningType::resistance && said.resistance == 0))
             expect_valid(*law.outlet);
-        if (law.outlet) law.state = make_steady_state(*law.outlet, 0);
+        if (law.outlet) law.state = start_of(*law.outlet, config);
         if (said.initial_pressure) law.state[0] = *said.initial_pressure;
         law.level_state = law.state;
         return law;

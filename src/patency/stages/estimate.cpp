@@ -115,7 +115,7 @@ Estimate estimate_flow(const deck::Case& given, const Vessel& vessel, const Esti
     const double nominal_inlet = openings[0].area;
     if (!config.bed.flow) config.bed.flow = flow_of_bed(config.bed.state, nominal_inlet);
     *config.bed.flow *= change.flow;
-    tune_outlets(config, openings);
+    complete_openings(config, openings);
 
     Estimate e;
     e.tree.branches = branches_of(*vessel.along, change);

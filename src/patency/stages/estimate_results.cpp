@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/estimate_results.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include "patency/stages/outlet_summary.h"
 
 namespace patency {
 
@@ -19,10 +20,7 @@ Json opening_summary(const Estimate& e, std::size_t k, const std::optional<Estim
                  {"mean_pressure_pa", e.opening_pressures[k]},
                  {"mean_velocity_m_per_s", e.opening_flows[k] / area},
                  {"area_m2", area}};
-    if (e.outlets[k].resistance) {
-        opening["resistance_pa_s_per_m3"] = *e.outlets[k].resistance;
-        opening["distal_pressure_pa"] = e.outlets[k].distal_pressure;
-    }
+    add_outlet(opening, e.outlets[k]);
     if (band) opening["flow_band_m3_per_s"] = band_of(band->opening_flows[k]);
     return opening;
 }

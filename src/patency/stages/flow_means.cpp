@@ -10,6 +10,7 @@
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
 #include "patency/stages/lumen_of_case.h"
+#include "patency/stages/outlet_summary.h"
 
 namespace patency {
 
@@ -99,10 +100,7 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
                                         {"mean_pressure_pa", mean.pressure},
                                         {"mean_velocity_m_per_s", mean.velocity},
                                         {"area_m2", scene.ends[k].area}};
-        if (const auto* behind = scene.laws[k].outlet ? std::get_if<Resistance>(&*scene.laws[k].outlet) : nullptr) {
-            openings[scene.ends[k].name]["resistance_pa_s_per_m3"] = behind->resistance;
-            openings[scene.ends[k].name]["distal_pressure_pa"] = behind->distal_pressure + scene.datum;
-        }
+        add_outlet(openings[scene.ends[k].name], scene.config.openings.at(scene.ends[k].name), scene.datum);
     }
     summary["openings"] = openings;
     summary["gauge_pressure_ratio"] = nullptr;   // of a vessel with a lesion only (vessel_results.h)

@@ -29,7 +29,7 @@ constexpr std::array<InletDefault, 4> inlet_defaults{{
     {1.5e-3, deck::BedState::resting, resting_velocity, "a small artery at rest",
      "0.123 m/s, a coronary artery's at rest (J. Korean Soc. Echocardiogr. 2000; 8: 146)"},
     {6e-3, deck::BedState::hyperaemic, hyperaemic_velocity, "a coronary artery at hyperaemia",
-     "0.279 m/s (J. Korean Soc. Echocardiogr. 2000; 8: 146)"},
+     "0.279 m/s (J. Korean Soc. Echocardiogr. 2000; 8: 146)", true},
     {8e-3, deck::BedState::resting, 0.22, "a carotid artery at rest",
      "0.22 m/s: 415 mL/min in the common carotid (Radiology 1997; 205: 353) of 6.3 mm (Krejza et al. 2006)"},
     {1, deck::BedState::resting, 0.08, "the aorta or a leg's artery at rest",
@@ -71,6 +71,21 @@ deck::Case make_boundaries(const Vessel& vessel, const InitSettings& settings, c
     if (inlet.velocity != hyperaemic_velocity && inlet.velocity != resting_velocity)
         config.bed.flow = written(inlet.velocity * area, "mL/min", 2);
     return config;
+}
+
+/// The same vessel as the heart beats: it follows the aorta's pressure, and beds store blood.
+void let_pulse(deck::Case& config, double period, const std::string& inlet, bool is_coronary) {
+    constexpr int longest = 10;   // beats; a flow that starts from the beds' own beat repeats after two or three
+    config.about.mode = deck::Mode::periodic;
+    config.about.period = period;
+    config.aorta.pulse = parse_quantity("40 mmHg", Dimension::pressure);
+    for (auto& [name, said] : config.openings) {
+        if (name == inlet)
+            said.pressure.reset();
+        else
+            said.type = is_coronary ? deck::OpeningType::coronary : deck::OpeningType::rcr;
+    }
+    config.numerics.duration = longest * period;
 }
 
 /// What a flow needs along the way from the inlet that needs most.
@@ -214,6 +229,7 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
                                   "lesion's diameter.");
     plan.config.numerics.scheme = deck::SchemeName::cells;
     plan.config.numerics.across = cells_across;
+    if (settings.period) let_pulse(plan.config, *settings.period, inlet.name, plan.inlet->is_coronary);
     plan.cells = plan_cells(plan.config, settings.budget.threads, &vessel);
     return plan;
 }

@@ -20,16 +20,18 @@ struct InitSettings {
     deck::Geometry geometry;   ///< the surface or network, paths absolute
     std::string name;          ///< of the case
     Budget budget;
-    bool with_stent = false;   ///< the proposed stent is in the deck, not a comment there
+    bool with_stent = false;          ///< the proposed stent is in the deck, not a comment there
+    std::optional<double> period{};   ///< of the heart [s]; a steady flow if absent
 };
 
 /// What brings blood to a vessel of this width, if nobody says.
 struct InletDefault {
     double widest;   ///< for inlets up to this diameter [m]
     deck::BedState state;
-    double velocity;      ///< mean over the inlet's section [m/s]
-    const char* what;     ///< "a coronary artery at hyperaemia"
-    const char* source;   ///< where the velocity comes from
+    double velocity;            ///< mean over the inlet's section [m/s]
+    const char* what;           ///< "a coronary artery at hyperaemia"
+    const char* source;         ///< where the velocity comes from
+    bool is_coronary = false;   ///< the heart squeezes the bed behind it
 };
 const InletDefault& inlet_default(double diameter);
 

@@ -116,7 +116,8 @@ void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
         "{} thread{}",
         cells.cells, mm(cells.finest), mm(cells.coarsest), cells_across, cells.memory / 1e6,
         readable_time(cells.seconds), cells.threads, cells.threads == 1 ? "" : "s");
-    out.add("Moving particles instead, for a budget of {}:", readable_time(plan.budget.seconds));
+    out.add("Moving particles instead, for a budget of {}{}:", readable_time(plan.budget.seconds),
+            plan.config.about.mode == deck::Mode::periodic ? ", of the mean flow" : "");
     out.add("  {}", price(plan.price, spacing));
     if (!plan.is_within_budget())
         out.add(
@@ -181,18 +182,21 @@ std::string openings_text(const Vessel& vessel, const InitPlan& plan) {
             text += commented(name, size);
             text += commented("    type: pressure",
                               "the aortic pressure; the beds then decide the flow, so a lesion lowers it");
-            text += commented("    pressure: " + quantity(*said.pressure, "mmHg"), "mean; as aorta.pressure");
+            if (said.pressure)
+                text += commented("    pressure: " + quantity(*said.pressure, "mmHg"), "mean; as aorta.pressure");
             continue;
         }
         const double resistance = *plan.estimate.outlets[k].resistance;
-        text += commented(name + " {type: resistance}",
+        text += commented(fmt::format("{} {{type: {}}}", name, word_of(plan.config.openings.at(o.name).type)),
                           fmt::format("{}: {:.1f} %, {:.1f} mL/min, {:.3g} mmHg min/mL", size, 100 * shares[k - 1],
                                       mL_per_min(plan.bed_flow * shares[k - 1]), in_unit(resistance, "mmHg min/mL")));
     }
     return text +
-           "  # A resistance without a value is tuned: each outlet's share of the bed's flow is as its diameter^3 "
-           "(Murray 1926), its\n"
-           "  # resistance the pressure from the aorta to the veins over that. Give `resistance`, or type rcr, if you "
+           "  # An outlet without numbers is tuned: its share of the bed's flow is as its diameter^3 (Murray 1926), "
+           "its "
+           "resistance\n"
+           "  # the pressure from the aorta to the veins over that. Types resistance, rcr and coronary take numbers, "
+           "if you "
            "know better.\n";
 }
 
@@ -274,7 +278,11 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
     for (const std::string& line : describe_plan(vessel, plan)) text += line.empty() ? "#\n" : "# " + line + "\n";
     text += "\n" + commented("version: 1", "of the deck's language");
     text += "case:\n" + commented("  name: " + double_quoted(c.about.name), "in reports");
-    text += commented("  mode: steady", "steady, or periodic with a period");
+    const bool is_periodic = c.about.mode == deck::Mode::periodic;
+    text += is_periodic ? commented("  mode: periodic", "as the heart beats") +
+                              commented("  period: " + quantity(*c.about.period, "s"),
+                                        fmt::format("{:.0f} beats a minute", 60 / *c.about.period))
+                        : commented("  mode: steady", "steady, or periodic with a period (patency init --heart-rate)");
     text += geometry_text(plan, folder);
     text += commented("blood:", "at 37 C, a haematocrit of 45 %, the shear rates of arteries");
     text += commented("  density: " + quantity(c.blood.density, "kg/m^3"), "mass per volume");
@@ -284,17 +292,21 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
     text += openings_text(vessel, plan);
     text += "aorta:\n" + commented("  pressure: " + quantity(*c.aorta.pressure, "mmHg"),
                                    "mean, of 120 over 80; the reference of FFR");
+    if (is_periodic) text += commented("  pulse: " + quantity(c.aorta.pulse, "mmHg"), "systolic less diastolic");
     text += bed_text(plan) + stent_text(vessel, plan);
     text +=
         "numerics:\n" +
-        commented("  scheme: cells", "a steady flow on the cells of still particles; sph: moving ones, hours") +
+        commented("  scheme: cells", fmt::format("a {} flow on the cells of still particles; sph: moving ones, hours",
+                                                 word_of(c.about.mode))) +
         commented(fmt::format("  across: {}", format_number(*c.numerics.across)), "cells in each local diameter") +
         commented("  # spacing: " + quantity(plan.moving_spacing, "mm"),
                   fmt::format("of sph, instead of across: {:.1f} in the narrowest place", plan.price.across_narrowest));
-    text += commented("  duration: " + quantity(c.numerics.duration, "s"), "of sph, simulated, at the longest");
+    text += commented("  duration: " + quantity(c.numerics.duration, "s"),
+                      is_periodic ? "at the longest" : "of sph, simulated, at the longest");
     text += commented(fmt::format("  convergence: {{tolerance_percent: {}}}",
                                   format_number(c.numerics.convergence->tolerance_percent)),
-                      "of sph: ends when flows and pressures at the openings have stopped moving");
+                      is_periodic ? "ends when flows and pressures at the openings repeat from beat to beat"
+                                  : "of sph: ends when flows and pressures at the openings have stopped moving");
     text += "output:\n" + commented("  fields: [velocity, pressure]", "of the particles in the frames");
     return text + commented("  # interval: " + quantity(c.numerics.duration / 20, "s"),
                             "frames for ParaView; the last state only if absent");

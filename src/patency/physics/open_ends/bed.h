@@ -20,6 +20,19 @@ struct BedDemand {
 /// A lesion then lowers its flow, as it does in a patient. Throws DeckError if nothing drives the flow. THEORY.md (9.10)
 std::vector<double> bed_resistances(const std::vector<double>& diameters, const BedDemand& demand);
 
+/// How a coronary bed is made up (SimVascular's clinical case of normal coronary arteries, after Sankaran et al., Ann Biomed Eng
+/// 2012; 40: 2228): of its resistance what arteries, small vessels and veins have, of its compliance what arteries and the vessels
+/// within the muscle have.                                                                         THEORY.md (9.14)
+struct CoronaryBed {
+    double arteries = 0.32, small_vessels = 0.52, veins = 0.16;
+    double arterial = 0.11, myocardial = 0.89;
+    /// Compliance times the resistance at rest [s]: 3.6e-5 cm^5/dyn and three fifths of 4 % of 80 mL/s at 93 mmHg there.
+    double time_at_rest = 2.2;
+};
+
+/// Of the resistance behind a Windkessel's outlet what lies before its compliance (the same source, for the aorta).
+inline constexpr double proximal_share = 0.09;
+
 // Mean over the section of the velocity in a proximal coronary artery [m/s], half of the average peak velocity of a Doppler
 // wire in the left anterior descending artery of nine people without disease, 55.8 cm/s at hyperaemia and 24.6 cm/s at rest
 // (J. Korean Soc. Echocardiogr. 2000; 8: 146): half, because a parabola's peak is twice its mean.

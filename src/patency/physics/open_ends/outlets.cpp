@@ -145,6 +145,25 @@ OutletState make_steady_state(const OutletModel& model, double flow) {
                       model);
 }
 
+OutletState make_periodic_state(const OutletModel& model, const Waveform& pressure, double period) {
+    if (std::holds_alternative<Resistance>(model)) return make_steady_state(model, 0);
+    constexpr int steps = 400;   // each exact for a constant flow
+    const auto after_a_period = [&](OutletState state) {
+        for (int k = 0; k < steps; ++k) {
+            const TimeStep step{k * period / steps, period / steps};
+            const OutletResponse answer = step_response(model, state, step);
+            const double flow = (pressure(step.begin + step.length) - answer.p0) / answer.dp_dq;
+            state = advanced(model, state, step, flow);
+        }
+        return state;
+    };
+    // x(T) = f + M x(0), and x(T) = x(0) is wanted.
+    const OutletState free = after_a_period({0, 0}), a = after_a_period({1, 0}), b = after_a_period({0, 1});
+    const double m11 = 1 - (a[0] - free[0]), m21 = -(a[1] - free[1]), m12 = -(b[0] - free[0]),
+                 m22 = 1 - (b[1] - free[1]), determinant = m11 * m22 - m12 * m21;
+    return {(free[0] * m22 - m12 * free[1]) / determinant, (m11 * free[1] - m21 * free[0]) / determinant};
+}
+
 double outlet_pressure(const OutletModel& model, const OutletState& state, double flow) {
     return state[0] + series_resistance(model) * flow;
 }

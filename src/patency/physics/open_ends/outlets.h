@@ -64,6 +64,10 @@ void expect_valid(const OutletModel& model);
 /// is the state of its mean.
 OutletState make_steady_state(const OutletModel& model, double flow);
 
+/// The state at time 0 that repeats after `period` [s] when the pressure on the opening [Pa] does: linear models, so three periods
+/// tell it. THEORY (9.13).
+OutletState make_periodic_state(const OutletModel& model, const Waveform& pressure, double period);
+
 /// Pressure on the opening [Pa] at an instant, flow [m3/s] positive out of the domain.
 double outlet_pressure(const OutletModel& model, const OutletState& state, double flow);
 
