@@ -109,6 +109,30 @@ TEST(Page, IsTheSameForTheSameResults) {
     EXPECT_EQ(make_page(results, "1"), make_page(read_results(folder.path()), "1"));
 }
 
+TEST(Page, APulseIsDrawnOverItsLastBeat) {
+    const ScratchFolder folder;
+    Json summary = flow_summary();
+    summary["time_s"] = 1.6, summary["period_s"] = 0.8;
+    std::string waves =
+        "time_s,inlet_flow_m3_per_s,inlet_mean_pressure_pa,outlet_flow_m3_per_s,outlet_mean_pressure_pa\n";
+    for (int k = 0; k <= 16; ++k)   // 9e-6 m^3/s only before the last beat, 2e-6 in it
+        waves += std::to_string(0.1 * k) + (k < 8 ? ",-9e-6,900,9e-6,900\n" : ",-2e-6,12000,2e-6,11000\n");
+    put(folder / "waveforms.csv", waves);
+    write_summary(folder / "summary.json", summary);
+    const std::string page = contents_of(write_report(folder.path(), "1"));
+    for (const char* words :
+         {"<h2>Over a beat</h2>", "aria-label=\"Flow at the openings over a beat\"",
+          "aria-label=\"Pressure at the openings over a beat\"", "<span class=\"key series-1\">outlet</span>"})
+        EXPECT_TRUE(has(page, words)) << words;
+    const std::string flows = page.substr(page.find("Flow at the openings"), 4000);
+    EXPECT_TRUE(has(flows, ">120</text>"));                                    // 2e-6 m^3/s, on both curves upward
+    EXPECT_FALSE(has(flows.substr(0, flows.find("</svg>")), ">500</text>"));   // what was before is not drawn
+    EXPECT_FALSE(has(flows.substr(0, flows.find("</svg>")), ">-"));
+    summary.erase("period_s");   // a steady flow has no beat
+    write_summary(folder / "summary.json", summary);
+    EXPECT_FALSE(has(contents_of(write_report(folder.path(), "1")), "Over a beat"));
+}
+
 TEST(Page, SaysByWhatMethodTheFlowWasFound) {
     const ScratchFolder folder;
     const auto page_of = [&](const Json& summary) {

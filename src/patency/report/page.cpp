@@ -48,8 +48,8 @@ std::string make_page(const RunResults& results, std::string_view version) {
     const PageData data = make_page_data(results);
     std::string page = page_head(results.name) + "<body>\n" + page_masthead(results.name, subtitle(results)) +
                        "<main>\n" + glance_section(results) + std::string(live_section) + static_section(results) +
-                       quality_section(results) + tables_section(results) + run_section(results) + "</main>\n" +
-                       page_footer(version, notes);
+                       beat_section(results) + quality_section(results) + tables_section(results) +
+                       run_section(results) + "</main>\n" + page_footer(version, notes);
     page += json_block("summary", results.summary_text) + json_block("model", data.model);
     for (const Blob& blob : data.blobs)
         page += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", blob.id, blob.base64);

@@ -39,6 +39,7 @@ FlowPart read_flow(const fs::path& root, const std::string& key, const std::stri
     for (const char* name : {"pullback.csv", "sections.csv", "waveforms.csv"})
         if (fs::exists(folder / name)) flow.tables.push_back({flow.prefix + name, read_file(folder / name)});
     if (fs::exists(folder / "pullback.csv")) flow.pullback = read_csv(folder / "pullback.csv");
+    if (fs::exists(folder / "waveforms.csv")) flow.waveforms = read_csv(folder / "waveforms.csv");
     flow.wall = polydata_if_there(folder / "wall.vtp");
     flow.cut = polydata_if_there(folder / "cut.vtp");
     flow.streamlines = polydata_if_there(folder / "streamlines.vtp");

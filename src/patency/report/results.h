@@ -28,7 +28,7 @@ struct FlowPart {
     std::string prefix;   ///< of its files: "before/", or empty
     std::string deck;     ///< case.resolved.yaml
     std::vector<TextFile> tables{};
-    std::optional<CsvTable> pullback{};
+    std::optional<CsvTable> pullback{}, waveforms{};
     std::optional<PolyData> wall{}, cut{}, streamlines{};
 };
 

@@ -12,6 +12,7 @@ std::string glance_section(const RunResults& results);    ///< vessel, lesion, b
 std::string quality_section(const RunResults& results);   ///< what speaks for and against these numbers
 std::string quality_strip(const RunResults& results);     ///< the same in a line of marks, for the first screen
 std::string static_section(const RunResults& results);    ///< pictures and curves that need no script
+std::string beat_section(const RunResults& results);      ///< of periodic flows: what the openings do in time
 std::string tables_section(
     const RunResults& results);   ///< lesions, flow split, the paper's table VI, stent, outlets, resolution
 std::string run_section(const RunResults& results);   ///< deck, versions, input hashes, times, downloads

@@ -52,8 +52,8 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
     return inside > 0 ? lumen.volume * count / inside : 0;
 }
 
-/// Of a periodic flow; of one that waits until it repeats, and whose beds begin in the beat of the pressure that drives it, four beats: one
-/// that feels what the vessel loses, two that are alike and one that means are taken of.
+/// Of a periodic flow; of one that waits until it repeats, and whose beds begin in the beat of the pressure that drives it, three beats: two
+/// that are alike and one that means are taken of.
 double steps_of(const deck::Case& config) {
     if (config.about.mode == deck::Mode::steady) return 0;
     const bool repeats_soon = config.numerics.convergence &&
@@ -62,7 +62,7 @@ double steps_of(const deck::Case& config) {
                                   return said.type == deck::OpeningType::pressure && !said.pressure;
                               });
     const double beats = config.numerics.duration / *config.about.period;
-    return (repeats_soon ? std::min(4.0, beats) : beats) * config.numerics.steps_per_period;
+    return (repeats_soon ? std::min(3.0, beats) : beats) * config.numerics.steps_per_period;
 }
 
 }   // namespace

@@ -92,6 +92,7 @@ Json make_summary(const Scene& scene, const FlowMark& from) {
     summary["planar"] = scene.numerics.planar;
     summary["time_s"] = scene.time;
     summary["averaged_from_s"] = from.time;
+    if (scene.config.about.mode == deck::Mode::periodic) summary["period_s"] = scene.config.about.period.value();
     summary["pressure_datum"] = scene.config.aorta.pressure ? "absolute" : "gauge";
     Json openings = Json::object();
     for (std::size_t k = 0; k < scene.ends.size() && to.time > from.time; ++k) {

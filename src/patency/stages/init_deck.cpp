@@ -75,7 +75,8 @@ deck::Case make_boundaries(const Vessel& vessel, const InitSettings& settings, c
 
 /// The same vessel as the heart beats: it follows the aorta's pressure, and beds store blood.
 void let_pulse(deck::Case& config, double period, const std::string& inlet, bool is_coronary) {
-    constexpr int longest = 10;   // beats; a flow that starts from the beds' own beat repeats after two or three
+    constexpr int longest =
+        10;   // beats; a flow that starts from the beds' own beat repeats at once, and ends with the third
     config.about.mode = deck::Mode::periodic;
     config.about.period = period;
     config.aorta.pulse = parse_quantity("40 mmHg", Dimension::pressure);
