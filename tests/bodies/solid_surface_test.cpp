@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -153,6 +154,23 @@ TEST(SolidSurface, PressureActsOnTheDeformedArea) {
         for (const Vec3& f : surface.force) total += f;
         EXPECT_LT(norm(total), 1e-12 * p * s.area) << s.name;
     }
+}
+
+TEST(SolidSurface, ASharpCornerIsCarriedByWhatIsNearest) {
+    const Shape box = shapes()[0];
+    Solid solid;
+    make_solid(box, solid);
+    SurfaceElements sharp = box.fill.surface;
+    const std::size_t corner =
+        std::size_t(std::min_element(sharp.vertices.begin(), sharp.vertices.end(),
+                                     [](const Vec3& a, const Vec3& b) { return norm(a) < norm(b); }) -
+                    sharp.vertices.begin());
+    sharp.vertices[corner] = -0.8 * spacing * Vec3{1, 1, 1};   // one particle lies within 2.3 spacings
+    SolidSurface surface(sharp, solid.particles, 2.3 * spacing, false);
+    for (std::size_t i = 0; i < solid.particles.size(); ++i)
+        solid.particles.position[i] = F * solid.particles.reference[i];
+    surface.follow(solid.particles);
+    EXPECT_LT(norm(surface.position[corner] - F * sharp.vertices[corner]), 1e-12);
 }
 
 TEST(SolidSurface, AVertexWithoutParticlesIsASentence) {

@@ -56,7 +56,6 @@ void SolidSurface::find_carriers(const SolidParticles& particles, double support
     std::vector<Vec3> sorted(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = particles.reference[order[i]];
     cells.index(frame, support / 2, sorted);
-    const auto reach = std::int64_t(support / frame.quantum()) + 2;
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
         const Vec3& X = mesh_.vertices[v];
         const auto fixed = frame.fixed(X);
@@ -65,29 +64,40 @@ void SolidSurface::find_carriers(const SolidParticles& particles, double support
         std::vector<Share> shares;
         double sum = 0;
         Vec3 mean{};
-        cells.for_each_run(at, at, reach, [&](std::uint32_t begin, std::uint32_t end) {
-            for (std::uint32_t k = begin; k < end; ++k) {
-                const double t = 1 - norm(sorted[k] - X) / support;
-                if (t <= 0) continue;
-                const double w = particles.volume[order[k]] * t * t * t;
-                shares.push_back({order[k], w});
-                sum += w;
-                mean += w * sorted[k];
-            }
-        });
-        mean = sum > 0 ? mean / sum : X;
         Mat3 M{};
-        for (const Share& s : shares) {
-            const Vec3 d = particles.reference[s.index] - mean;
-            M += s.weight * outer(d, d);
+        const auto gather = [&](double within) {
+            shares.clear(), sum = 0, mean = {}, M = {};
+            cells.for_each_run(at, at, std::int64_t(within / frame.quantum()) + 2,
+                               [&](std::uint32_t begin, std::uint32_t end) {
+                                   for (std::uint32_t k = begin; k < end; ++k) {
+                                       const double t = 1 - norm(sorted[k] - X) / within;
+                                       if (t <= 0) continue;
+                                       const double w = particles.volume[order[k]] * t * t * t;
+                                       shares.push_back({order[k], w});
+                                       sum += w;
+                                       mean += w * sorted[k];
+                                   }
+                               });
+            mean = sum > 0 ? mean / sum : X;
+            for (const Share& s : shares) {
+                const Vec3 d = particles.reference[s.index] - mean;
+                M += s.weight * outer(d, d);
+            }
+            const double size = trace(M) / (planar_ ? 2 : 3);
+            if (planar_) M.z.z = size;
+            return determinant(M) > 1e-3 * size * size * size;   // they lie in no plane
+        };
+        // The sharp edges of a file's surface may stand farther from the particles than those that particles were made with.
+        constexpr double wider = 1.25, widest = 2;
+        double within = support;
+        while (!gather(within)) {
+            within *= wider;
+            if (within > widest * support)
+                throw GeometryError(fmt::format(
+                    "the surface at ({:.4g}, {:.4g}, {:.4g}) m has too few particles of the solid near it to be "
+                    "carried: use a finer spacing",
+                    X.x, X.y, X.z));
         }
-        const double size = trace(M) / (planar_ ? 2 : 3);
-        if (planar_) M.z.z = size;
-        if (!(determinant(M) > 1e-3 * size * size * size))
-            throw GeometryError(fmt::format(
-                "the surface at ({:.4g}, {:.4g}, {:.4g}) m has too few particles of the solid near it to be carried: "
-                "use a finer spacing",
-                X.x, X.y, X.z));
         const Vec3 slope = inverse(M) * (X - mean);
         for (Share& s : shares) s.weight *= 1 / sum + dot(slope, particles.reference[s.index] - mean);
         double softness = 0;
