@@ -110,7 +110,7 @@ def main(path):
     letting_go = ['*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE', 'INNER, BALLOON']   # a balloon that shrinks chatters; a ring let go is the same ring
     for what, first in ((opening, 0.01), (letting_go, 0.1)):
         lines += ['*STEP, NLGEOM, INC=2000', '*STATIC', f'{first}, 1, 1e-6, {3 * first}', *what,
-                  '*NODE PRINT, NSET=OUTER, FREQUENCY=100000', 'U', '*NODE PRINT, NSET=BALLOON, TOTALS=ONLY, FREQUENCY=20', 'RF',
+                  '*NODE PRINT, NSET=OUTER, FREQUENCY=100000', 'U', '*NODE PRINT, NSET=ALL, FREQUENCY=100000', 'U', '*NODE PRINT, NSET=BALLOON, TOTALS=ONLY, FREQUENCY=20', 'RF',
                   '*EL PRINT, ELSET=METAL, FREQUENCY=100000', 'PEEQ', '*EL PRINT, ELSET=METAL, FREQUENCY=100000', 'EVOL',
                   '*NODE FILE, FREQUENCY=100000', 'U', '*EL FILE, FREQUENCY=100000', 'S, PEEQ', '*END STEP']
     open(path, 'w').write('\n'.join(lines) + '\n')

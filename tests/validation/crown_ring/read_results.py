@@ -44,9 +44,10 @@ def main(deck, results):
     nodes = places(deck)
     diameters, lengths, works, strains, volumes = [], [], [], None, []
     for title, rows in blocks(results):
-        if title.startswith('displacements'):
+        if title.startswith('displacements') and 'OUTER' in title:
             r = [radius(*nodes[int(n)][:2], u, v, bool(local)) for n, u, v, _, *local in rows]
             diameters.append(2 * sum(r) / len(r))
+        elif title.startswith('displacements'):   # of all nodes: crowns lean outwards, so that their inner edges stand out
             z = [nodes[int(row[0])][2] + row[3] for row in rows]
             lengths.append(max(z) - min(z))
         elif 'equivalent plastic strain' in title:
