@@ -104,7 +104,7 @@ void plastic_ring_figures(const Results& results, FigureList& figures) {
 // Stents.
 
 /// The ring of crowns by CalculiX 2.20, 672 bricks of 20 nodes along a strut: tests/validation/crown_ring.
-constexpr double ring_recoil_percent = 1.043, ring_foreshortening_percent = 20.66, ring_plastic_work = 5.326e-4;   // J
+constexpr double ring_recoil_percent = 1.043, ring_foreshortening_percent = 18.30, ring_plastic_work = 5.326e-4;   // J
 
 /// Opened by the balloon and let go; its shape with the balloon at its largest and at rest in the end.
 void measure_stent(const deck::Case& config, const std::string&, const Stop& interrupted, RunData& data) {
