@@ -211,6 +211,48 @@ TEST(SurfaceCheck, PartsThatPassThroughEachOtherAreRefused) {
     EXPECT_FALSE(find(checked, "crossings")->shown.triangles.empty());
 }
 
+TEST(SurfaceCheck, PartsThatLieOnEachOtherInOnePlaneAreRefused) {
+    const auto block = [](const Vec3& low, const Vec3& high) {
+        Surface s;
+        for (const double x : {low.x, high.x})
+            for (const double y : {low.y, high.y})
+                for (const double z : {low.z, high.z}) s.points.push_back({x, y, z});
+        s.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                       {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+        return s;
+    };
+    const auto turned = [](Surface s) {   // so that no plane is one of the axes', as 32-bit files have it
+        for (Vec3& x : s.points)
+            x = {double(float(0.36 * x.x + 0.48 * x.y - 0.8 * x.z)), double(float(-0.8 * x.x + 0.6 * x.y)),
+                 double(float(0.48 * x.x + 0.64 * x.y + 0.6 * x.z))};
+        return s;
+    };
+    const Surface large = block({0, 0, 0}, {4e-3, 4e-3, 2e-3});
+    const auto crossings = [&](const Surface& small, bool is_turned) {
+        const Surface both = joined_surfaces(large, small, {});
+        const CheckedSurface checked = check_surface(is_turned ? turned(both) : both);
+        const Finding* found = find(checked, "crossings");
+        if (found) EXPECT_EQ(found->verdict, Verdict::refused);
+        return found ? found->count : 0;
+    };
+    for (const bool is_turned : {false, true}) {
+        // Within one triangle of the large block's top: no side passes through anything.
+        EXPECT_GE(crossings(block({2.5e-3, 0.5e-3, 2e-3}, {3.5e-3, 1.5e-3, 3e-3}), is_turned), 2u) << is_turned;
+        // Just above it, and beside it with the tops in one plane.
+        EXPECT_EQ(crossings(block({2.5e-3, 0.5e-3, 2.001e-3}, {3.5e-3, 1.5e-3, 3e-3}), is_turned), 0u) << is_turned;
+        EXPECT_EQ(crossings(block({4.001e-3, 0, 0}, {6e-3, 4e-3, 2e-3}), is_turned), 0u) << is_turned;
+    }
+}
+
+TEST(SurfaceCheck, ATriangleTurnedOverOntoItsNeighbourLiesOnIt) {
+    Surface pair;
+    pair.points = {{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}, {0.8e-3, 0.7e-3, 0}, {0.5e-3, -1e-3, 0}};
+    pair.triangles = {{0, 1, 2}, {1, 0, 3}};
+    EXPECT_EQ(find_crossing_triangles(pair, 10).size(), 1u);
+    pair.triangles[1] = {1, 0, 4};   // on the other side of the edge, where it belongs
+    EXPECT_TRUE(find_crossing_triangles(pair, 10).empty());
+}
+
 TEST(SurfaceCheck, CrumplesAreHarmless) {
     Surface tube = capped_tube();
     // Two neighbours stand out of the wall and lean over each other.

@@ -143,7 +143,7 @@ std::vector<Finding> find_crossings(const Surface& surface) {
     };
     report(folds, "folds", Verdict::harmless, "beside each other are crumpled into each other");
     report(crossings, "crossings", Verdict::refused,
-           "of different parts of the surface pass through each other (separate them there)");
+           "of different parts of the surface pass through or lie on each other (separate them there)");
     return findings;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "patency/shape/surface_repair.h"
 #include "patency/shape/triangle_tree.h"
 
 namespace patency {
@@ -43,11 +44,52 @@ std::optional<Vec3> find_side_through(const Surface& surface, const Triangle& a,
     return {};
 }
 
+/// Over the plane of t, the farthest of the triangle's points; infinite if t has no plane.
+double farthest_from_plane(const Surface& surface, const Triangle& t, const Triangle& other) {
+    const Vec3 &a = surface.points[t[0]], n = area_vector(surface, t);
+    double farthest = 0;
+    for (const std::uint32_t point : other)
+        farthest = std::max(farthest, std::abs(dot(n, surface.points[point] - a)) / norm(n));
+    return std::isfinite(farthest) ? farthest : Bounds::infinity;
+}
+
+/// How far two triangles in one plane would have to be moved apart: the least overlap of their shadows on the lines
+/// across their sides. At most 0 if they only touch, and less than the height of the flatter one.
+double overlap_in_plane(const Surface& surface, const Triangle& a, const Triangle& b) {
+    double least = Bounds::infinity;
+    for (const auto& [own, normal] : {std::pair(&a, area_vector(surface, a)), {&b, area_vector(surface, b)}})
+        for (int side = 0; side < 3; ++side) {
+            const Vec3 across =
+                normalized(cross(normal, surface.points[(*own)[(side + 1) % 3]] - surface.points[(*own)[side]]));
+            double low[2], high[2];
+            for (int k = 0; k < 2; ++k) {
+                low[k] = Bounds::infinity, high[k] = -Bounds::infinity;
+                for (const std::uint32_t point : k == 0 ? a : b) {
+                    const double x = dot(surface.points[point] - surface.points[a[0]], across);
+                    low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
+                }
+            }
+            least = std::min(least, std::min(high[0], high[1]) - std::max(low[0], low[1]));
+        }
+    return least;
+}
+
+/// A place where two triangles in one plane lie on each other, both within the tolerance [m].
+std::optional<Vec3> find_overlap(const Surface& surface, const Triangle& a, const Triangle& b, double tolerance) {
+    if (farthest_from_plane(surface, a, b) > tolerance || farthest_from_plane(surface, b, a) > tolerance) return {};
+    if (!(overlap_in_plane(surface, a, b) > tolerance)) return {};
+    return 0.5 * (centroid(surface, a) + centroid(surface, b));
+}
+
 /// The search for pairs in a tree of boxes.
 class Crossings {
 public:
     explicit Crossings(const Surface& surface)
-        : surface_(surface), tree_(surface), nodes_(tree_.nodes()), order_(tree_.order()) {}
+        : surface_(surface),
+          tree_(surface),
+          nodes_(tree_.nodes()),
+          order_(tree_.order()),
+          tolerance_(same_place_tolerance(surface)) {}
 
     std::vector<TrianglePair> find(std::size_t limit) {
         limit_ = limit;
@@ -90,9 +132,11 @@ private:
     void compare(std::uint32_t i, std::uint32_t j) {
         if (found_.size() >= limit_ || !overlap(tree_.box(i), tree_.box(j))) return;
         const Triangle &a = surface_.triangles[i], &b = surface_.triangles[j];
-        if (has(b, a[0]) + has(b, a[1]) + has(b, a[2]) > 1) return;   // neighbours across an edge touch there
-        auto place = find_side_through(surface_, a, b);
-        if (!place) place = find_side_through(surface_, b, a);
+        const int shared = has(b, a[0]) + has(b, a[1]) + has(b, a[2]);
+        std::optional<Vec3> place;
+        if (shared <= 1) place = find_side_through(surface_, a, b);   // neighbours across an edge touch there
+        if (shared <= 1 && !place) place = find_side_through(surface_, b, a);
+        if (shared <= 2 && !place) place = find_overlap(surface_, a, b, tolerance_);
         if (place) found_.push_back({std::min(i, j), std::max(i, j), *place});
     }
 
@@ -100,6 +144,7 @@ private:
     const TriangleTree tree_;
     const std::vector<Node>& nodes_;
     const std::vector<std::uint32_t>& order_;
+    const double tolerance_;   // m: files round places in one plane by less
     std::vector<TrianglePair> found_;
     std::size_t limit_ = 0;
 };
