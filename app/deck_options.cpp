@@ -7,6 +7,7 @@
 #include "command_line.h"
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/stages/opening_names.h"
 #include "patency/stages/stent_of_case.h"
 
 namespace patency::app {
@@ -29,7 +30,7 @@ void DeckOptions::add_to(const Command& command) {
 }
 
 deck::Case DeckOptions::read() const {
-    const std::vector<deck::NamedCase> runs = deck::read_runs(path, settings);
+    const std::vector<deck::NamedCase> runs = deck::read_runs(path, settings, find_opening_names);
     if (run.empty() && runs.size() == 1) return with_known_names(runs.front().resolved);
     std::vector<std::string> names;
     for (const deck::NamedCase& named : runs) {

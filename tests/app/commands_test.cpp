@@ -11,7 +11,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "patency/io/surface_file.h"
 #include "tests/app/program.h"
+#include "tests/shape/surfaces.h"
 #include "tests/stages/decks.h"
 
 namespace patency {
@@ -53,6 +55,41 @@ TEST_F(Commands, a_wrong_command_line_is_2) {
     EXPECT_EQ(patency("flwo").exit_code, 2);
     EXPECT_EQ(patency("flow").exit_code, 2);
     EXPECT_EQ(patency("--help").exit_code, 0);
+}
+
+TEST_F(Commands, a_misspelt_opening_is_told_with_its_place_and_the_other_mistakes) {
+    const std::string rest = R"(blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlett: {type: velocity, velocity: "0.1 m/s"}
+  outlet: {type: pressure, pressure: "0 mmHg"}
+numerics: {scheme: sph, spacing: "0.2 mm", duration: "1 s"}
+)";
+    const std::string shape = "version: 1\ngeometry: {shape: {type: tube, diameter: \"3 mm\", length: \"9 mm\"}}\n";
+    const std::string sentence = "5:3: openings.inlett: the lumen has no such opening. Did you mean \"inlet\"?";
+    for (const char* command : {"check ", "flow -o out ", "estimate "}) {
+        const Result alone = patency(command + write(shape + rest));
+        EXPECT_EQ(alone.exit_code, 3) << command;
+        EXPECT_NE(alone.output.find(sentence), std::string::npos) << alone.output;
+        EXPECT_NE(alone.output.find("1 mistake;"), std::string::npos) << alone.output;
+    }
+    const Result two = patency("check --set numerics.duratoin=1s " + write(shape + rest));
+    EXPECT_NE(two.output.find(sentence), std::string::npos) << two.output;
+    EXPECT_NE(two.output.find("numerics.duratoin"), std::string::npos) << two.output;
+    // Of a network and of a surface, whose openings are its own.
+    std::ofstream(folder_ / "tube.json") << R"({"unit": "mm", "blend_width_k": 0.1,
+  "tubes": [{"name": "tube", "points": [[-2, 0, 0, 1.5], [3, 0, 0, 1.5], [9, 0, 0, 1.5], [14, 0, 0, 1.5]]}],
+  "ends": {"inlet": {"point": [0, 0, 0], "outward_normal": [-1, 0, 0], "radius": 1.5},
+           "outlet": {"point": [12, 0, 0], "outward_normal": [1, 0, 0], "radius": 1.5}}})";
+    const Result network = patency("check " + write("version: 1\ngeometry: {network: tube.json}\n" + rest));
+    EXPECT_EQ(network.exit_code, 3);
+    EXPECT_NE(network.output.find(sentence), std::string::npos) << network.output;
+    write_surface(folder_ / "tube.vtp", make_tube_mesh({.radius = 1.5e-3, .length = 9e-3}));
+    const Result surface = patency("check " + write("version: 1\ngeometry: {surface: tube.vtp, unit: mm}\n" + rest));
+    EXPECT_EQ(surface.exit_code, 3);
+    EXPECT_NE(surface.output.find(sentence), std::string::npos) << surface.output;
+    EXPECT_NE(surface.output.find("6:3: openings.outlet: the lumen has no such opening. Did you mean \"outlet_1\"?"),
+              std::string::npos)
+        << surface.output;
 }
 
 TEST_F(Commands, solids_are_computed_and_every_wrong_way_says_so) {

@@ -132,6 +132,54 @@ TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
               only("5:10: geometry.inlet: can be chosen of a surface only; a network and a shape say it themselves"));
 }
 
+TEST(Mistakes, OpeningsThatTheLumenDoesNotHave) {
+    int asked = 0;
+    const auto report = [&](const std::string& deck, std::vector<std::string> names) {
+        try {
+            parse_runs(deck, "case.yaml", {}, {}, [&](const Case&) {
+                ++asked;
+                return names.empty() ? std::nullopt : std::optional(names);
+            });
+        } catch (const DeckError& e) {
+            return std::string(e.what());
+        }
+        return std::string("accepted");
+    };
+    const std::vector<std::string> both{"inlet", "outlet"};
+    EXPECT_EQ(report(pipe_deck, both), "accepted");
+    EXPECT_EQ(
+        report(pipe_with("  inlet:", "  inlett:"), both),
+        only("9:3: openings.inlett: the lumen has no such opening. Did you mean \"inlet\"? It has inlet and outlet"));
+    // With the deck's other mistakes, in its order; of an opening that is wrong inside too.
+    const std::string more = report(
+        pipe_with("viscosity: \"3.5 mPa s\"\nopenings:\n  inlet:\n    type: velocity\n    velocity: \"0.1 m/s\"",
+                  "viscocity: \"3.5 mPa s\"\nopenings:\n  inlett:\n    type: velocity\n    velocity: \"0.1 mm\""),
+        both);
+    EXPECT_NE(more.find("7:3: blood.viscocity"), more.npos) << more;
+    EXPECT_NE(more.find("9:3: openings.inlett: the lumen has no such opening"), more.npos) << more;
+    EXPECT_NE(more.find("11:15: openings.inlett.velocity"), more.npos) << more;
+    EXPECT_NE(report(pipe_deck, {"inlet", "outlet", "side"}).find("9:3: openings.side is missing: what happens"),
+              std::string::npos);
+    EXPECT_EQ(report(pipe_with("  inlet:", "  qqqqqqqqqqqq:"), {"inlet", "outlet", "side"}).find("Did you mean"),
+              std::string::npos);
+    EXPECT_EQ(report(pipe_with("  inlet:", "  inlett:"), {}), "accepted");   // nobody knows
+    // Nobody is asked of a geometry that is wrong itself, nor of a surface without need.
+    const auto with = [&](const std::string& geometry, const std::string& name) {
+        std::string deck = pipe_with("  shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}", "  " + geometry);
+        return report(deck.replace(deck.find("  outlet:"), 9, "  " + name + ":"), {"inlet", "outlet_1"});
+    };
+    asked = 0;
+    EXPECT_EQ(with("shape: {type: tube, diameter: \"-3 mm\", length: \"15 mm\"}", "outlet").find("no such"),
+              std::string::npos);
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm", "outlet_1"), "accepted");
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  names: {outlet_1: left}", "left"), "accepted");
+    EXPECT_EQ(asked, 0);
+    EXPECT_NE(with("surface: t.stl\n  unit: mm", "outlet")
+                  .find("13:3: openings.outlet: the lumen has no such opening. "
+                        "Did you mean \"outlet_1\"?"),
+              std::string::npos);
+}
+
 TEST(Mistakes, LesionThatCannotBe) {
     const auto with_lesion = [](const std::string& geometry, const std::string& lesion) {
         return mistakes_in(pipe_with(

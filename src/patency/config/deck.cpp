@@ -47,7 +47,8 @@ Node parse_deck(std::string_view text, const std::string& source, Mistakes& mist
     refuse(mistakes);
 }
 
-Case interpret(Node root, const std::filesystem::path& folder, const Settings& settings, Mistakes& mistakes) {
+Case interpret(Node root, const std::filesystem::path& folder, const Settings& settings,
+               const FindOpeningNames& find_names, Mistakes& mistakes) {
     for (const std::string& setting : settings) apply_setting(root, setting, mistakes);
     Case c;
     Scope scope;
@@ -55,6 +56,7 @@ Case interpret(Node root, const std::filesystem::path& folder, const Settings& s
     scope.folder = folder;
     read_record(root, table_of<Case>(), &c, scope);
     check_case(c, root, mistakes);
+    check_opening_names(c, root, find_names, mistakes);
     return c;
 }
 
@@ -68,18 +70,18 @@ Case parse_case(std::string_view text, const std::string& source, const std::fil
                 const Settings& settings) {
     Mistakes mistakes;
     Node root = parse_deck(text, source, mistakes);
-    Case c = interpret(std::move(root), folder, settings, mistakes);
+    Case c = interpret(std::move(root), folder, settings, {}, mistakes);
     if (!mistakes.empty()) refuse(mistakes);
     return c;
 }
 
 std::vector<NamedCase> parse_runs(std::string_view text, const std::string& source, const std::filesystem::path& folder,
-                                  const Settings& settings) {
+                                  const Settings& settings, const FindOpeningNames& find_names) {
     Mistakes mistakes;
     Node root = parse_deck(text, source, mistakes);
     const Node* given = root.find("runs");
     if (!given) {
-        Case c = interpret(std::move(root), folder, settings, mistakes);
+        Case c = interpret(std::move(root), folder, settings, find_names, mistakes);
         if (!mistakes.empty()) refuse(mistakes);
         return {{c.about.name, std::move(c)}};
     }
@@ -93,7 +95,7 @@ std::vector<NamedCase> parse_runs(std::string_view text, const std::string& sour
     if (!mistakes.empty()) refuse(mistakes);
 
     Mistakes common;   // what is wrong without any run; of these only what a run has too is reported
-    interpret(root, folder, settings, common);
+    interpret(root, folder, settings, {}, common);
     for (std::size_t i = 0; i < root.keys.size(); ++i) {
         if (root.keys[i].text != "runs") continue;
         root.keys.erase(root.keys.begin() + std::ptrdiff_t(i));
@@ -106,7 +108,7 @@ std::vector<NamedCase> parse_runs(std::string_view text, const std::string& sour
         Node variant = root;
         const Node& set = *runs_node.items[i].find("set");
         for (std::size_t k = 0; k < set.items.size(); ++k) set_at(variant, set.keys[k].text, set.items[k], own);
-        variants.push_back({holder.runs[i].name, interpret(std::move(variant), folder, settings, own)});
+        variants.push_back({holder.runs[i].name, interpret(std::move(variant), folder, settings, find_names, own)});
         mistakes.merge(own, " (in run " + double_quoted(holder.runs[i].name) + ")", common);
     }
     if (!mistakes.empty()) refuse(mistakes);
@@ -117,8 +119,9 @@ Case read_case(const std::filesystem::path& path, const Settings& settings) {
     return parse_case(read_deck_text(path), path.string(), folder_of(path), settings);
 }
 
-std::vector<NamedCase> read_runs(const std::filesystem::path& path, const Settings& settings) {
-    return parse_runs(read_deck_text(path), path.string(), folder_of(path), settings);
+std::vector<NamedCase> read_runs(const std::filesystem::path& path, const Settings& settings,
+                                 const FindOpeningNames& find_names) {
+    return parse_runs(read_deck_text(path), path.string(), folder_of(path), settings, find_names);
 }
 
 std::string format_case(const Case& c, const std::filesystem::path& folder) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "patency/config/case.h"
+#include "patency/config/opening_names.h"
 
 namespace patency::deck {
 
@@ -24,14 +25,16 @@ struct NamedCase {
 };
 /// The deck's variants, each the deck with what its run sets (settings go over both), in the deck's order.
 /// Without `runs` it is the deck alone, under the case's name. The deck itself may be incomplete if every run
-/// completes it. Errors as read_case.
-std::vector<NamedCase> read_runs(const std::filesystem::path& path, const Settings& settings = {});
+/// completes it. Openings that the lumen does not have are mistakes too if it can be known which it has. Errors as read_case.
+std::vector<NamedCase> read_runs(const std::filesystem::path& path, const Settings& settings = {},
+                                 const FindOpeningNames& find_names = {});
 
 /// The same from text; `source` stands for the file name in messages, relative paths are in `folder`.
 Case parse_case(std::string_view text, const std::string& source = "deck", const std::filesystem::path& folder = {},
                 const Settings& settings = {});
 std::vector<NamedCase> parse_runs(std::string_view text, const std::string& source = "deck",
-                                  const std::filesystem::path& folder = {}, const Settings& settings = {});
+                                  const std::filesystem::path& folder = {}, const Settings& settings = {},
+                                  const FindOpeningNames& find_names = {});
 
 /// The whole case as a deck, defaults included, from which the identical case is read; paths are written
 /// relative to `folder`.

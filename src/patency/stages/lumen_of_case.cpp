@@ -197,6 +197,8 @@ Network read_network_of(const deck::Case& config) {
     return network;
 }
 
+Lumen make_lumen_of_shape(const deck::Case& config) { return make_unchecked(config, config.geometry.shape.value()); }
+
 Lumen make_lumen(const deck::Case& config, const Vessel* known) {
     const deck::Geometry& g = config.geometry;
     Lumen lumen = g.shape     ? make_unchecked(config, *g.shape)

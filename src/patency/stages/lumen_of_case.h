@@ -19,6 +19,9 @@ namespace patency {
 /// `known`: the deck's surface if it has been read (read_vessel), so that this need not be done again.
 Lumen make_lumen(const deck::Case& config, const Vessel* known = nullptr);
 
+/// That of geometry.shape alone, whatever the deck says of its openings.
+Lumen make_lumen_of_shape(const deck::Case& config);
+
 /// The network of geometry.network, narrowed by geometry.lesion. Throws FileError, GeometryError.
 Network read_network_of(const deck::Case& config);
 
