@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "command_line.h"
 #include "commands.h"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct InitOptions {
     std::string path, unit, space, inlet, name, out = "case.yaml", budget = "1 h";
+    std::optional<int> label;
     int threads = 0;
     int heart_rate = 0;
     bool force = false, stent = false;
@@ -62,6 +64,7 @@ void init(const InitOptions& o) {
     if (!o.unit.empty()) g.unit = o.unit;
     if (!o.space.empty()) g.space = o.space;
     if (!o.inlet.empty()) g.inlet = o.inlet;
+    g.label = o.label;
     settings.with_stent = o.stent;
     if (o.heart_rate > 0) settings.period = 60.0 / o.heart_rate;
     settings.name = o.name.empty() ? resolved(o.path).stem().string() : o.name;
@@ -69,6 +72,7 @@ void init(const InitOptions& o) {
 
     if (is_network && g.inlet)
         throw UsageError("--inlet: a network's inlet is its widest end, or the one that its file names so");
+    if (is_network && g.label) throw UsageError("--label: a network of tubes has no labels");
     deck::Case config;
     config.geometry = g;
     const Vessel vessel = [&] {
@@ -96,6 +100,7 @@ void add_init_command(const Command& program, ExitCode&) {
         .required();
     command.add_option("--unit", o->unit,
                        "of its coordinates, which only images and JSON networks say themselves: m, cm, mm or um");
+    command.add_option("--label", o->label, "of a label map with several: which one is the vessel");
     command.add_option("--space", o->space, "its axes, if the file does not say: LPS or RAS");
     command.add_option("--inlet", o->inlet,
                        "the opening that is the inlet, by name or number; the largest if not given");

@@ -66,6 +66,7 @@ geometry:
   surface: lumen.stl
   unit: mm
   space: LPS
+  label: 2
   extensions: {diameters: 2}
 blood: {density: "1.06 g/mL", law: carreau_yasuda, mu_0: "56 cP", mu_inf: "0.0345 P", lambda: "1.902 s", n: 0.22, a: 1.25}
 wall:

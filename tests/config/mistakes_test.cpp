@@ -128,6 +128,9 @@ TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
     EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlet: outlet_2"), "accepted");
     EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlett: outlet_2"),
               only("6:3: geometry.inlett: unknown key. Did you mean \"inlet\"?"));
+    EXPECT_EQ(with("network: t.json\n  label: 2"),
+              only("5:10: geometry.label: is one of a label map, which is a surface here"));
+    EXPECT_EQ(with("surface: t.nii\n  unit: mm\n  label: two").substr(0, 9), "case.yaml");
     EXPECT_EQ(with("network: t.json\n  inlet: outlet_2"),
               only("5:10: geometry.inlet: can be chosen of a surface only; a network and a shape say it themselves"));
 }

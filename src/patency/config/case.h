@@ -147,6 +147,7 @@ struct Geometry {   // exactly one of surface, network, shape
     std::optional<Shape> shape;
     std::optional<std::string> unit;    ///< of the file's coordinates: m, cm, mm or um
     std::optional<std::string> space;   ///< axes of the file's coordinates: LPS or RAS
+    std::optional<int> label;           ///< surface: of a label map with several, which one is the vessel
     std::optional<std::string>
         inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
     std::map<std::string, std::string>

@@ -78,6 +78,7 @@ private:
         if (g.inlet)
             expect(g.surface.has_value(), path + "inlet",
                    "can be chosen of a surface only; a network and a shape say it themselves");
+        expect(!g.label || g.surface, path + "label", "is one of a label map, which is a surface here");
         expect(g.branches.empty() || g.surface, path + "branches",
                "can be named of a surface only; a network names its own and a shape has none");
         for (const auto& [name, place] : g.branches)

@@ -191,8 +191,10 @@ int choose_label(const Image& image, std::optional<int> wanted) {
         throw GeometryError(
             fmt::format("The label map has no label {}; it has {}.", *wanted, join(names, ", ", " and ")));
     if (!wanted && labels.size() > 1)
-        throw GeometryError(fmt::format("The label map has several labels: {}. Say which one is the vessel.",
-                                        join(names, ", ", " and ")));
+        throw GeometryError(
+            fmt::format("The label map has several labels: {}. Say which one is the vessel: --label N, or label in the "
+                        "geometry of a deck.",
+                        join(names, ", ", " and ")));
     return wanted.value_or(*labels.begin());
 }
 

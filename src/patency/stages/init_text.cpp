@@ -161,6 +161,8 @@ std::string geometry_text(const InitPlan& plan, const std::filesystem::path& fol
                       : commented("  surface: " + path_text(*g.surface, folder),
                                   "the lumen; the path is relative to this deck");
     if (g.unit) text += commented("  unit: " + *g.unit, "of the file's coordinates");
+    if (g.label)
+        text += commented(fmt::format("  label: {}", *g.label), "of the label map: the one that is the vessel");
     if (g.space) text += commented("  space: " + *g.space, "axes of the file's coordinates");
     if (g.inlet)
         text += commented("  inlet: " + double_quoted(*g.inlet), "which opening is the inlet; the largest if absent");

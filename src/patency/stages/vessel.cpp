@@ -120,7 +120,10 @@ void as_said_by(const char* key, Change change) {
 
 Vessel open_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
-    Vessel vessel = check_vessel(read_surface(g.surface.value(), g.unit.value_or(""), g.space.value_or("")));
+    Surface surface;
+    as_said_by(g.label ? "label" : "surface",
+               [&] { surface = read_surface(g.surface.value(), g.unit.value_or(""), g.space.value_or(""), g.label); });
+    Vessel vessel = check_vessel(std::move(surface));
     expect_usable(vessel, g);
     if (g.inlet) as_said_by("inlet", [&] { choose_inlet(vessel.openings, *g.inlet); });
     as_said_by("names", [&] { rename_openings(vessel.openings, g.names); });
