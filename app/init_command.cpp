@@ -75,7 +75,7 @@ void init(const InitOptions& o) {
     if (is_network && g.label) throw UsageError("--label: a network of tubes has no labels");
     deck::Case config;
     config.geometry = g;
-    const Vessel vessel = [&] {
+    Vessel vessel = [&] {
         try {
             return read_vessel(config);
         } catch (const DeckError& error) {   // here the deck is the command line
@@ -83,6 +83,7 @@ void init(const InitOptions& o) {
         }
     }();
     if (!is_network && !g.unit) g.unit = "mm";   // an image knows its own
+    if (!is_network) settings.oblique_ends = square_oblique_ends(vessel);
     const InitPlan plan = plan_case(vessel, settings);
     write_file(out, deck_text(vessel, plan, out.parent_path()));
     fmt::print("{}\n", double_quoted(o.path));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
 #include "command_line.h"
@@ -41,6 +42,8 @@ struct Inspection : Vessel {
         return sum;
     }
 };
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Inspection inspect(const InspectOptions& o) {
     Inspection result{holds_network(o.path) ? check_vessel(read_network(o.path, o.unit, o.space), o.inlet)
@@ -95,14 +98,17 @@ void print_table(const InspectOptions& o, const Inspection& r) {
         fmt::print("  {:<9} {:<20} {}\n", word_of(finding.verdict), finding.kind, finding.sentence);
     fmt::print("Openings: {}\n", r.openings.empty() ? "none" : "");
     if (!r.openings.empty())
-        fmt::print("   # {:<11} {:>11} {:>11} {:>32}   {:<24} {}\n", "name", "diameter mm", "area mm^2", "centre mm",
-                   "outward normal", "face");
+        fmt::print("   # {:<11} {:>11} {:>11} {:>32}   {:<24} {:>10}  {}\n", "name", "diameter mm", "area mm^2",
+                   "centre mm", "outward normal", "off square", "face");
     for (std::size_t k = 0; k < r.openings.size(); ++k) {
         const Opening& opening = r.openings[k].opening;
         const Vec3 c = 1e3 * opening.centre, n = opening.normal;
+        const std::optional<double> angle = off_square(r, k);
         fmt::print(
-            "  {:>2} {:<11} {:>11.3f} {:>11.4g} {:>10.3f} {:>10.3f} {:>10.3f}   {:>7.3f} {:>7.3f} {:>7.3f}  {}\n",
+            "  {:>2} {:<11} {:>11.3f} {:>11.4g} {:>10.3f} {:>10.3f} {:>10.3f}   {:>7.3f} {:>7.3f} {:>7.3f}  {:>10}  "
+            "{}\n",
             k + 1, opening.name, 2e3 * opening.radius, 1e6 * opening.area, c.x, c.y, c.z, n.x, n.y, n.z,
+            angle ? fmt::format("{:.1f} deg", degrees(*angle)) : "unknown",
             r.openings[k].face_id             ? std::to_string(*r.openings[k].face_id)
             : r.openings[k].triangles.empty() ? "open"
                                               : "flat");
@@ -176,14 +182,17 @@ Json as_json(const InspectOptions& o, const Inspection& r) {
                                     {"size_mm", 1e3 * f.size},
                                     {"sentence", f.sentence}});
     json["openings"] = Json::object();
-    for (const SurfaceOpening& opening : r.openings)
+    for (const SurfaceOpening& opening : r.openings) {
+        const std::optional<double> angle = off_square(r, json["openings"].size());
         json["openings"][opening.opening.name] = {{"diameter_mm", 2e3 * opening.opening.radius},
                                                   {"area_mm2", 1e6 * opening.opening.area},
                                                   {"perimeter_mm", 1e3 * opening.perimeter},
                                                   {"flatness_error_mm", 1e3 * opening.flatness},
                                                   {"centre_mm", scaled(opening.opening.centre, 1e3)},
                                                   {"normal", scaled(opening.opening.normal, 1)},
+                                                  {"off_square_deg", angle ? Json(degrees(*angle)) : Json()},
                                                   {"model_face_id", opening.face_id ? Json(*opening.face_id) : Json()}};
+    }
     if (r.along) add_along(json, *r.along);
     return json;
 }

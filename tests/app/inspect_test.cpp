@@ -40,6 +40,7 @@ TEST_F(Inspect, ASoundTubeIs0) {
     EXPECT_NEAR(json["volume_mm3"].get<double>(), 6 * M_PI, 0.01 * 6 * M_PI);
     EXPECT_NEAR(json["wall_area_mm2"].get<double>(), 12 * M_PI, 0.01 * 12 * M_PI);
     EXPECT_NEAR(json["openings"]["inlet"]["diameter_mm"].get<double>(), 2, 0.02);
+    EXPECT_NEAR(json["openings"]["inlet"]["off_square_deg"].get<double>(), 0, 0.1);
     EXPECT_EQ(json["usable"], true);
     EXPECT_NEAR(json["centrelines"]["outlet_1"]["length_mm"].get<double>(), 6, 1e-3);
     EXPECT_NEAR(json["branches"]["branch_1"]["minimum_diameter_mm"].get<double>(), 2, 0.02);

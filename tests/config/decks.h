@@ -67,6 +67,7 @@ geometry:
   unit: mm
   space: LPS
   label: 2
+  cut_back: {inlet: "2.7 mm", a: "1 cm"}
   extensions: {diameters: 2}
 blood: {density: "1.06 g/mL", law: carreau_yasuda, mu_0: "56 cP", mu_inf: "0.0345 P", lambda: "1.902 s", n: 0.22, a: 1.25}
 wall:

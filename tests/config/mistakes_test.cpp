@@ -128,6 +128,15 @@ TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
     EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlet: outlet_2"), "accepted");
     EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlett: outlet_2"),
               only("6:3: geometry.inlett: unknown key. Did you mean \"inlet\"?"));
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  cut_back: {outlet_2: 2.7 mm}"), "accepted");
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  cut_back: {outlet_2: 0 mm}"),
+              only("6:24: geometry.cut_back.outlet_2: 0 mm is out of range: above 0 mm, at most 10000 mm"));
+    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  cut_bck: {outlet_2: 1 mm}"),
+              only("6:3: geometry.cut_bck: unknown key. Did you mean \"cut_back\"?"));
+    EXPECT_EQ(
+        with("network: t.json\n  cut_back: {outlet_2: 1 mm}"),
+        only("5:13: geometry.cut_back: can cut a surface only; the ends of a network and of a shape are square to "
+             "their axes"));
     EXPECT_EQ(with("network: t.json\n  label: 2"),
               only("5:10: geometry.label: is one of a label map, which is a surface here"));
     EXPECT_EQ(with("surface: t.nii\n  unit: mm\n  label: two").substr(0, 9), "case.yaml");

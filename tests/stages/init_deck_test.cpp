@@ -171,6 +171,11 @@ TEST(InitDeck, SaysWhatABudgetWouldHaveToCut) {
         EXPECT_GE(2 * point_at(line, cut.arc).radius, std::min(4 * poor.budget_spacing, 2 * line.points[0].radius));
     }
     EXPECT_TRUE(has(deck_text(y(), poor, "/v"), "would need outlet_2 cut back"));
+    EXPECT_TRUE(has(deck_text(y(), poor, "/v"), "geometry.cut_back: {outlet_2: \""));
+    for (const Cut& cut : poor.cuts) {
+        EXPECT_GE(cut.cut_back, cut.end_arc - cut.arc);
+        EXPECT_LE(cut.cut_back, 1.01 * (cut.end_arc - cut.arc));
+    }
 }
 
 TEST(InitDeck, ProposesAStentThatFitsTheHealthyLumen) {

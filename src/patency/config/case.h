@@ -151,7 +151,9 @@ struct Geometry {   // exactly one of surface, network, shape
     std::optional<std::string>
         inlet;   ///< surface: the opening that is the inlet, by name or number; absent: the largest
     std::map<std::string, std::string>
-        names;                              ///< surface: own names for openings, by the names that they are found under
+        names;   ///< surface: own names for openings, by the names that they are found under
+    std::map<std::string, double>
+        cut_back;   ///< surface: how far before its end [m] an opening is cut square to the centreline, by its name
     std::map<std::string, Vec3> branches;   ///< surface: names for branches, by a point within each [m]
     std::optional<Lesion> lesion;
     Extensions extensions;

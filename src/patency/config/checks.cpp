@@ -79,6 +79,8 @@ private:
             expect(g.surface.has_value(), path + "inlet",
                    "can be chosen of a surface only; a network and a shape say it themselves");
         expect(!g.label || g.surface, path + "label", "is one of a label map, which is a surface here");
+        expect(g.cut_back.empty() || g.surface, path + "cut_back",
+               "can cut a surface only; the ends of a network and of a shape are square to their axes");
         expect(g.branches.empty() || g.surface, path + "branches",
                "can be named of a surface only; a network names its own and a shape has none");
         for (const auto& [name, place] : g.branches)

@@ -207,6 +207,12 @@ const Table& table_of<Geometry>() {
                  .help =
                      "own names for the openings of a surface, by the names or numbers that patency inspect gives them",
                  .example = "{outlet_1: circumflex}"}),
+            row(&Geometry::cut_back, {.key = "cut_back",
+                                      .help = "how far before their ends, along the centreline, openings of a surface "
+                                              "are cut square to it, by their names",
+                                      .unit = "mm",
+                                      .range = above_up_to(0, largest_length),
+                                      .example = "{outlet_1: 2.7 mm}"}),
             row(&Geometry::branches, {.key = "branches",
                                       .help = "names for the branches of a surface, by a point within each",
                                       .unit = "mm",

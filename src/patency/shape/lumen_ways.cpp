@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -236,17 +237,45 @@ bool is_capped(const SignedDistance& distance, const Opening& opening) {
 
 double depth_of_cap(const Opening& opening) { return 1.25 * opening.radius; }
 
+namespace {
+
+/// The way in from an opening's centre, as long as goes one unit against its normal. At an oblique end the normal leads into
+/// the wall: the way is the one that leads where the wall is farthest, which is along the vessel.
+Vec3 way_in(const SignedDistance& distance, const Opening& opening) {
+    const double depth = depth_of_cap(opening);
+    constexpr double enough = 0.2;   // of the radius: nearer to the wall a first line would hardly find its way
+    Vec3 best = -opening.normal;
+    double nearest = distance.value(opening.centre + depth * best);
+    if (nearest < -enough * opening.radius) return best;
+    const Vec3 u = normalized(cross(opening.normal, std::abs(opening.normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})),
+               v = cross(opening.normal, u);
+    constexpr int rings = 14, around = 36;   // five degrees apart, up to 70 off the normal: beyond, no rim is round
+    for (int ring = 1; ring <= rings; ++ring)
+        for (int k = 0; k < around; ++k) {
+            const double off = ring * std::numbers::pi / 36, turn = 2 * std::numbers::pi * k / around;
+            const Vec3 way = std::sin(off) * (std::cos(turn) * u + std::sin(turn) * v) - std::cos(off) * opening.normal;
+            const double value = distance.value(opening.centre + depth * way);
+            if (value < nearest) nearest = value, best = way;
+        }
+    return best / -dot(best, opening.normal);
+}
+
+}   // namespace
+
 SignedDistance without_caps(SignedDistance distance, const std::vector<Opening>& openings) {
     std::vector<Opening> caps;
     std::copy_if(openings.begin(), openings.end(), std::back_inserter(caps),
                  [&](const Opening& o) { return is_capped(distance, o); });
     if (caps.empty()) return distance;
+    std::vector<Vec3> ways;
+    for (const Opening& cap : caps) ways.push_back(way_in(distance, cap));
     const Bounds bounds = distance.bounds();
-    return {[distance = std::move(distance), caps = std::move(caps)](const Vec3& x) {
-                for (const Opening& cap : caps) {
+    return {[distance = std::move(distance), caps = std::move(caps), ways = std::move(ways)](const Vec3& x) {
+                for (std::size_t k = 0; k < caps.size(); ++k) {
+                    const Opening& cap = caps[k];
                     const auto [s, radial] = opening_coordinates(cap, x);
                     if (s > -depth_of_cap(cap) && s < 0.5 * cap.radius && norm(radial) < 1.2 * cap.reach)
-                        return distance.sample(x - (s + depth_of_cap(cap)) * cap.normal);
+                        return distance.sample(x + (s + depth_of_cap(cap)) * ways[k]);
                 }
                 return distance.sample(x);
             },

@@ -42,7 +42,7 @@ std::size_t cut_flat(Surface& surface, const FlatCut& cut, double snap, std::opt
     const Heights heights(cut);
     std::vector<double> height(surface.points.size());
     for (std::size_t k = 0; k < height.size(); ++k) {
-        height[k] = heights.of(surface.points[k]);
+        height[k] = cut.points.empty() || cut.points[k] ? heights.of(surface.points[k]) : -Bounds::infinity;
         if (std::abs(height[k]) > snap) continue;
         surface.points[k] -= height[k] * cut.normal;
         height[k] = 0;

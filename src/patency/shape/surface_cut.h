@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "patency/shape/surface.h"
 
@@ -14,6 +15,7 @@ namespace patency {
 struct FlatCut {
     Vec3 point, normal;
     double reach = Bounds::infinity, length = Bounds::infinity;
+    std::vector<char> points{};   ///< per point of the surface, whether the cut sees it; it sees all if empty
 };
 
 /// Takes away what lies past the plane. Points nearer to it than `snap` [m] move onto it, so that no slivers arise. The

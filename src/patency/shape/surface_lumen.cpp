@@ -93,8 +93,9 @@ void expect_room(const Surface& surface, std::span<const FlatLoop> planes,
     const auto refuse = [&](std::size_t k, double place) {
         throw GeometryError(fmt::format(
             "Opening '{}' cannot go on straight for {:.3g} mm, which the flow through it needs: another part of "
-            "the vessel is in its way {:.3g} mm past it. Cut that end farther back, or take a smaller spacing.",
-            openings[k].opening.name, 1e3 * settings.extension, 1e3 * place));
+            "the vessel is in its way {:.3g} mm past it. Cut that end farther back (geometry.cut_back: {{{}: "
+            "LENGTH}}), or take a smaller spacing.",
+            openings[k].opening.name, 1e3 * settings.extension, 1e3 * place, openings[k].opening.name));
     };
     for (std::size_t k = 0; k < planes.size(); ++k) {
         const FlatLoop& plane = planes[k];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "patency/base/errors.h"
@@ -52,6 +53,8 @@ deck::Case make_boundaries(const Vessel& vessel, const InitSettings& settings, c
     deck::Case config;
     config.about.name = settings.name;
     config.geometry = settings.geometry;
+    for (const ObliqueEnd& end : settings.oblique_ends)
+        if (end.cut_back > 0) config.geometry.cut_back[end.name] = end.cut_back;
     config.blood.density = 1060;
     config.blood.viscosity = parse_quantity("3.5 mPa s", Dimension::viscosity);
     config.aorta.pressure = parse_quantity("93 mmHg", Dimension::pressure);
@@ -131,14 +134,18 @@ std::unique_ptr<Scene> coarsest_frame(deck::Case config, const Vessel& vessel) {
     }
 }
 
-std::vector<Cut> find_cuts(const Vessel& vessel, double spacing) {
+std::vector<Cut> find_cuts(const Vessel& vessel, const deck::Geometry& geometry, double spacing) {
     std::vector<Cut> cuts;
     for (std::size_t k = 1; k < vessel.openings.size(); ++k) {
         if (2 * vessel.openings[k].opening.radius >= fewest_across * spacing) continue;
         const Centreline& line = vessel.along->lines.lines[k - 1];
         std::size_t last = line.points.size() - 1;
         while (last > 0 && 2 * line.points[last].radius < fewest_across * spacing) --last;
-        cuts.push_back({k, line.points[last].arc, line.length()});
+        double length = line.length() - line.points[last].arc;
+        if (const auto& least = vessel.along->least_cuts[k]) length = std::max(length, least->depth);
+        const auto cut = geometry.cut_back.find(vessel.openings[k].opening.name);
+        if (cut != geometry.cut_back.end()) length += cut->second;
+        cuts.push_back({k, line.points[last].arc, line.length(), written(length, "mm", 3, true)});
     }
     return cuts;
 }
@@ -185,6 +192,42 @@ std::optional<StentProposal> propose_stent(const VesselAlong& along) {
 
 }   // namespace
 
+double ObliqueEnd::excess() const { return 1 / std::cos(angle) - 1; }
+
+std::vector<ObliqueEnd> square_oblique_ends(Vessel& vessel) {
+    constexpr double most_degrees = 15;
+    constexpr double beyond_rim = 0.1;   // of the radius: so that no slivers of the old rim are left
+    std::vector<ObliqueEnd> ends;
+    std::map<std::string, double> lengths;
+    for (std::size_t k = 0; k < vessel.openings.size(); ++k) {
+        const std::optional<double> angle = off_square(vessel, k);
+        if (!angle || *angle <= most_degrees * pi / 180) continue;
+        const Opening& o = vessel.openings[k].opening;
+        const double length = written(vessel.along->least_cuts[k]->depth + beyond_rim * o.radius, "mm", 2, true);
+        ObliqueEnd end{o.name, *angle, length};
+        try {   // each by itself: one that cannot be cut keeps no other from it
+            Vessel one = vessel;
+            cut_ends_back(one, {{o.name, length}});
+            if (const std::string refused = refusals(one.checked.findings); !refused.empty())
+                throw GeometryError(refused);
+            lengths[o.name] = length;
+        } catch (const GeometryError& error) {
+            end.cut_back = 0, end.why_not = error.what();
+        }
+        ends.push_back(std::move(end));
+    }
+    if (lengths.empty()) return ends;
+    Vessel cut = vessel;
+    cut_ends_back(cut, lengths);
+    follow_vessel(cut);
+    if (const std::string refused = refusals(cut.checked.findings); refused.empty())
+        vessel = std::move(cut);
+    else
+        for (ObliqueEnd& end : ends)
+            if (end.cut_back > 0) end.cut_back = 0, end.why_not = refused;
+    return ends;
+}
+
 const InletDefault& inlet_default(double diameter) {
     for (const InletDefault& inlet : inlet_defaults)
         if (diameter <= inlet.widest) return inlet;
@@ -215,8 +258,10 @@ InitPlan plan_case(const Vessel& vessel, const InitSettings& settings) {
     plan.fine_spacing = round_spacing(scene->lumen.narrowest / fewest_resolved);
     plan.fine_price = plan_flow(*scene, settings.budget.threads, plan.fine_spacing);
     for (const Branch& branch : along.lines.branches) plan.widths.push_back(widths_of(along, branch));
-    if (plan.budget_spacing > plan.moving_spacing) plan.cuts = find_cuts(vessel, plan.budget_spacing);
+    if (plan.budget_spacing > plan.moving_spacing)
+        plan.cuts = find_cuts(vessel, plan.config.geometry, plan.budget_spacing);
     plan.short_ends = find_short_ends(vessel);
+    plan.oblique_ends = settings.oblique_ends;
     plan.stent = propose_stent(along);
     if (plan.stent) {   // what narrows the vessel is plaque
         plan.config.wall.plaque = deck::Plaque::fills;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
@@ -108,6 +109,24 @@ void describe_lesions(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     }
 }
 
+/// A surface's end is cut by a key of the deck; that of a network where the network is made.
+std::string how_to_cut(const InitPlan& plan, const std::string& name, double length) {
+    if (plan.config.geometry.network) return ".";
+    return fmt::format(": geometry.cut_back: {{{}: {}}}.", shown_name(name), quantity(length, "mm"));
+}
+
+void describe_oblique_ends(Lines& out, const InitPlan& plan) {
+    for (const ObliqueEnd& end : plan.oblique_ends) {
+        const double degrees = end.angle * 180 / std::numbers::pi;
+        if (end.cut_back > 0)
+            out.add("{} was {:.0f} degrees off square, its section {:.1f} % larger than the vessel: cut back by {}.",
+                    shown_name(end.name), degrees, 100 * end.excess(), format_quantity(end.cut_back, "mm"));
+        else
+            out.add("{} is {:.0f} degrees off square, its section {:.1f} % larger than the vessel, and stays so: {}",
+                    shown_name(end.name), degrees, 100 * end.excess(), end.why_not);
+    }
+}
+
 void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     const double spacing = plan.moving_spacing;
     const CellPlan& cells = plan.cells;
@@ -132,9 +151,9 @@ void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
     for (const Cut& cut : plan.cuts)
         out.add(
             "  The budget's {} would need {} cut back from {:.1f} to {:.1f} mm along its line, where it is 4 particles "
-            "wide.",
+            "wide{}",
             format_quantity(plan.budget_spacing, "mm"), shown_name(vessel.openings[cut.opening].opening.name),
-            mm(cut.end_arc), mm(cut.arc));
+            mm(cut.end_arc), mm(cut.arc), how_to_cut(plan, vessel.openings[cut.opening].opening.name, cut.cut_back));
     for (const ShortEnd& end : plan.short_ends)
         out.add("  {} ends {:.1f} mm beside a bifurcation or a lesion, less than its diameter: extensions would help.",
                 shown_name(vessel.openings[end.opening].opening.name), mm(end.length));
@@ -166,6 +185,14 @@ std::string geometry_text(const InitPlan& plan, const std::filesystem::path& fol
     if (g.space) text += commented("  space: " + *g.space, "axes of the file's coordinates");
     if (g.inlet)
         text += commented("  inlet: " + double_quoted(*g.inlet), "which opening is the inlet; the largest if absent");
+    if (!g.cut_back.empty())
+        text += commented("  cut_back:",
+                          "ends cut square to the centreline, so far before them: an oblique section is too large");
+    for (const ObliqueEnd& end : plan.oblique_ends)
+        if (end.cut_back > 0)
+            text += commented("    " + shown_name(end.name) + ": " + quantity(end.cut_back, "mm"),
+                              fmt::format("it is {:.0f} degrees off square, so {:.1f} % too large",
+                                          end.angle * 180 / std::numbers::pi, 100 * end.excess()));
     if (g.surface) text += commented("  # extensions: {diameters: 2}", "straight pieces on all openings");
     return text;
 }
@@ -265,6 +292,7 @@ std::vector<std::string> describe_plan(const Vessel& vessel, const InitPlan& pla
     out.add("Vessel: {} outlet{}, {:.5g} mm^3, taken for {}.", vessel.openings.size() - 1,
             vessel.openings.size() == 2 ? "" : "s", 1e9 * vessel.checked.volume, plan.inlet->what);
     describe_openings(out, vessel, plan);
+    describe_oblique_ends(out, plan);
     describe_branches(out, vessel, plan);
     describe_lesions(out, vessel, plan);
     describe_price(out, vessel, plan);

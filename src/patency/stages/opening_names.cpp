@@ -15,7 +15,9 @@ std::optional<std::vector<std::string>> find_opening_names(const deck::Case& con
         } else if (g.network) {
             for (const Opening& o : openings_of(read_network_of(config), 0)) names.push_back(o.name);
         } else {
-            for (const SurfaceOpening& o : open_vessel(config).openings) names.push_back(o.opening.name);
+            deck::Case whole = config;
+            whole.geometry.cut_back.clear();   // openings keep their names
+            for (const SurfaceOpening& o : open_vessel(whole).openings) names.push_back(o.opening.name);
         }
     } catch (const std::exception&) {
         return {};

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "patency/base/errors.h"
+#include "patency/base/text.h"
 #include "patency/io/surface_file.h"
 #include "patency/physics/open_ends/bed.h"
 #include "patency/shape/exact_distance.h"
@@ -46,11 +48,112 @@ void follow_vessel(Vessel& vessel) {
         VesselAlong along{find_branches(find_centrelines(make_exact_distance(closed), openings)), {}, {}};
         along.sections = cut_sections(closed, along.lines);
         along.assessment = assess_lesions(along.lines, along.sections);
+        const SectionCutter cutter(closed);
+        for (const AxisEnd& end : find_ends(checked, vessel.openings, along.lines))
+            along.least_cuts.push_back(least_square_cut(cutter, end));
         vessel.along = std::move(along);
     } catch (const GeometryError& e) {
         checked.findings.push_back({"no_centreline", Verdict::refused, 1, vessel.openings[0].opening.centre,
                                     diagonal(bounds(checked.surface)), e.what()});
     }
+}
+
+std::optional<double> off_square(const Vessel& vessel, std::size_t opening) {
+    if (!vessel.along || !vessel.along->least_cuts.at(opening)) return {};
+    const AxisEnd end = find_ends(vessel.checked, vessel.openings, vessel.along->lines).at(opening);
+    return off_square(end, *vessel.along->least_cuts[opening]);
+}
+
+namespace {
+
+/// Up, to what one would write.
+double in_hundredths_of_mm(double length) { return std::ceil(1e5 * length) / 100; }
+
+SquareCut cut_of_length(const Vessel& vessel, const SectionCutter& cutter, const AxisEnd& end, std::size_t which,
+                        double length) {
+    const auto refuse = [&](const std::string& why) {
+        throw GeometryError(fmt::format("geometry.cut_back.{}: {:.3g} mm {}", end.name, 1e3 * length, why));
+    };
+    if (length >= end.room)
+        refuse(fmt::format("is more than its branch has, {:.2f} mm from the end to {}", 1e3 * end.room,
+                           end.room < end.line->length() ? "the bifurcation" : "the vessel's other end"));
+    const auto cut = square_cut_at(cutter, end, length);
+    if (!cut)
+        refuse(
+            fmt::format("leaves too little of its branch, which is {:.2f} mm long, to tell which way it goes; cut less",
+                        1e3 * end.room));
+    const std::optional<SquareCut>& least = vessel.along->least_cuts.at(which);
+    if (!least)
+        refuse("cannot make it square: its rim reaches so far back that no plane across its branch leaves it whole");
+    if (length < least->depth)
+        refuse(fmt::format("leaves a part of its oblique rim, {:.0f} degrees off square: at least {:.2f} mm are needed",
+                           off_square(end, *least) * 180 / std::numbers::pi, in_hundredths_of_mm(least->depth)));
+    return *cut;
+}
+
+/// Names, face ids and order of openings that are found anew: each is where one was, or where the cut made one.
+void keep_openings(Vessel& vessel, const std::vector<SurfaceOpening>& before) {
+    std::vector<SurfaceOpening> found = find_openings(vessel.checked), kept;
+    for (const SurfaceOpening& old : before) {
+        const auto away = [&](const SurfaceOpening& o) { return norm(o.opening.centre - old.opening.centre); };
+        const auto same = std::min_element(found.begin(), found.end(),
+                                           [&](const auto& a, const auto& b) { return away(a) < away(b); });
+        if (same == found.end() || away(*same) > 0.5 * old.opening.radius)
+            throw GeometryError(
+                fmt::format("geometry.cut_back: {} is no opening any more once the ends are cut; cut "
+                            "it elsewhere",
+                            old.opening.name));
+        same->opening.name = old.opening.name;
+        same->face_id = old.face_id;
+        kept.push_back(std::move(*same));
+        found.erase(same);
+    }
+    vessel.openings = std::move(kept);
+}
+
+}   // namespace
+
+void cut_ends_back(Vessel& vessel, const std::map<std::string, double>& lengths) {
+    std::vector<std::string> names;
+    for (const SurfaceOpening& o : vessel.openings) names.push_back(o.opening.name);
+    for (const auto& [name, length] : lengths) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        const std::string nearest = nearest_name(name, names);
+        throw UsageError(fmt::format("{} is no opening of the surface{}; it has {}", double_quoted(shortened(name)),
+                                     nearest.empty() ? "" : ", did you mean " + nearest + "?",
+                                     join(names, ", ", " and ")));
+    }
+    follow_vessel(vessel);
+    if (!vessel.along || lengths.empty()) return;   // what is refused is said by whoever asks
+    const Surface closed = closed_at(vessel.checked.surface, vessel.checked.ends);
+    const SectionCutter cutter(closed);
+    const std::vector<AxisEnd> ends = find_ends(vessel.checked, vessel.openings, vessel.along->lines);
+    Surface surface = vessel.checked.surface;
+    std::vector<SurfaceOpening> openings = vessel.openings;
+    std::vector<Finding> findings = vessel.checked.findings;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        const auto asked = lengths.find(ends[k].name);
+        if (asked == lengths.end()) continue;
+        const SquareCut cut = cut_of_length(vessel, cutter, ends[k], k, asked->second);
+        try {
+            findings.push_back(cut_end(surface, ends, k, cut));
+        } catch (const GeometryError& error) {
+            throw GeometryError(fmt::format("geometry.cut_back: {}", error.what()));
+        }
+        openings[k].opening.centre = cut.point;
+    }
+    const std::size_t known = findings.size();
+    vessel.checked = check_surface(std::move(surface));
+    for (Finding& finding : vessel.checked.findings) {   // what was left as harmless is found again
+        const auto is_known = [&](const Finding& f) {
+            return f.kind == finding.kind && f.verdict == finding.verdict && f.verdict == Verdict::harmless;
+        };
+        if (std::none_of(findings.begin(), findings.begin() + std::ptrdiff_t(known), is_known))
+            findings.push_back(std::move(finding));
+    }
+    vessel.checked.findings = std::move(findings);
+    vessel.along.reset();
+    if (refusals(vessel.checked.findings).empty()) keep_openings(vessel, openings);
 }
 
 double lumen_area(const VesselAlong& along, std::size_t line, std::size_t point) {
@@ -128,6 +231,10 @@ Vessel open_vessel(const deck::Case& config) {
     if (g.inlet) as_said_by("inlet", [&] { choose_inlet(vessel.openings, *g.inlet); });
     as_said_by("names", [&] { rename_openings(vessel.openings, g.names); });
     expect_vessel_size(vessel.openings.front(), g.unit.value_or("mm"));
+    if (!g.cut_back.empty()) {
+        as_said_by("cut_back", [&] { cut_ends_back(vessel, g.cut_back); });
+        expect_usable(vessel, g);
+    }
     return vessel;
 }
 

@@ -3,7 +3,9 @@
 // particles.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "patency/shape/lesions.h"
 #include "patency/shape/network.h"
 #include "patency/shape/passage.h"
+#include "patency/shape/square_ends.h"
 #include "patency/shape/surface_check.h"
 #include "patency/shape/surface_openings.h"
 
@@ -21,6 +24,7 @@ struct VesselAlong {
     BranchedLines lines;
     std::vector<std::vector<CrossSection>> sections;   ///< per line and point
     Assessment assessment;
+    std::vector<std::optional<SquareCut>> least_cuts{};   ///< per opening, least_square_cut()
 };
 
 /// The section at a point of a line, or the disc of the largest sphere where a plane across it cuts another branch or no
@@ -52,6 +56,15 @@ Vessel check_vessel(const Network& network, std::string_view inlet = {}, double 
 /// Adds the centrelines and what follows from them; where there are none, why, as one more refused finding. Does nothing
 /// where something is refused already, or where it was followed before.
 void follow_vessel(Vessel& vessel);
+
+/// How far an opening is from square to the vessel's axis there [rad]; none where its branch is too short to say, or where the vessel was
+/// not followed.
+std::optional<double> off_square(const Vessel& vessel, std::size_t opening);
+
+/// The ends of these openings are cut square to the centreline so far before them [m]; names and order of the openings stay. Follows
+/// the vessel first; it is to be followed again then. Throws UsageError for an opening that there is not, GeometryError
+/// for a length that does not take the whole of an oblique end or is longer than the branch, and what cut_end throws.
+void cut_ends_back(Vessel& vessel, const std::map<std::string, double>& lengths);
 
 /// The vessel of a deck's surface, ready for use but not followed. Throws GeometryError with all refusals, or a question about the
 /// unit if its size is none of a vessel's; FileError.
