@@ -232,7 +232,9 @@ TEST(SurfaceCheck, PartsThatLieOnEachOtherInOnePlaneAreRefused) {
         const Surface both = joined_surfaces(large, small, {});
         const CheckedSurface checked = check_surface(is_turned ? turned(both) : both);
         const Finding* found = find(checked, "crossings");
-        if (found) EXPECT_EQ(found->verdict, Verdict::refused);
+        if (found) {
+            EXPECT_EQ(found->verdict, Verdict::refused);
+        }
         return found ? found->count : 0;
     };
     for (const bool is_turned : {false, true}) {

@@ -130,7 +130,8 @@ TEST(CompleteOpenings, BedsBeginInTheBeatOfThePressureThatDrivesThem) {
     const double held = make_end_law(y[1], config.openings.at("outlet_1"), config).state[0];
     EXPECT_GT(held, 12000 - 0.5 * config.aorta.pulse);
     EXPECT_LT(held, 12000);
-    config.openings["inlet"] = {.type = deck::OpeningType::flow, .flow = 4e-6};   // nobody knows what is in them
+    deck::Opening& inlet = config.openings["inlet"] = {};
+    inlet.type = deck::OpeningType::flow, inlet.flow = 4e-6;   // nobody knows what is in them
     EXPECT_EQ(make_end_law(y[1], config.openings.at("outlet_1"), config).state[0], 600);
 }
 
