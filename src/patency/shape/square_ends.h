@@ -38,7 +38,7 @@ struct SquareCut {
 };
 
 /// The plane across the axis at a depth before the end: its normal goes through the centres of the sections behind it, not
-/// ahead of it, where an oblique end leaves a part of the wall out. None where the branch is too short for a direction, or is not cut in closed sections.
+/// ahead of it, where an oblique end leaves a part of the wall out, THEORY.md (17.6). None where the branch is too short for a direction, or is not cut in closed sections.
 /// `cutter` cuts the surface with its ends closed.
 std::optional<SquareCut> square_cut_at(const SectionCutter& cutter, const AxisEnd& end, double depth);
 
