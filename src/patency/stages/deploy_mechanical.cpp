@@ -13,11 +13,10 @@
 #include "patency/bodies/stent_skin.h"
 #include "patency/bodies/tether.h"
 #include "patency/config/deck.h"
-#include "patency/io/csv.h"
-#include "patency/io/pvd.h"
 #include "patency/io/summary.h"
 #include "patency/shape/exact_distance.h"
 #include "patency/stages/deploy_program.h"
+#include "patency/stages/deploy_record.h"
 #include "patency/stages/deploy_results.h"
 #include "patency/stages/deploy_state.h"
 #include "patency/stages/flow_checkpoint.h"
@@ -79,28 +78,7 @@ public:
         else
             deck::write_case(config, stage.folder.file("case.resolved.yaml"));
         tell_plan();
-        const auto series = [&](const char* name) {
-            return goes_on ? PvdWriter::resumed(stage.folder.file(name), time()) : PvdWriter(stage.folder.file(name));
-        };
-        stent_series_ = std::make_unique<PvdWriter>(series("stent.pvd")),
-        wall_series_ = std::make_unique<PvdWriter>(series("wall.pvd"));
-        const std::vector<std::string> columns = {"time_s",
-                                                  "phase",
-                                                  "tool_radius_mm",
-                                                  "mean_diameter_mm",
-                                                  "minimum_diameter_mm",
-                                                  "maximum_diameter_mm",
-                                                  "length_mm",
-                                                  "tool_pressure_pa",
-                                                  "stent_kinetic_j",
-                                                  "stent_internal_j",
-                                                  "stent_plastic_j",
-                                                  "wall_kinetic_j",
-                                                  "wall_internal_j",
-                                                  "penetration_mm"};
-        const auto table = stage.folder.file("deployment.csv");
-        table_ = std::make_unique<CsvWriter>(goes_on ? CsvWriter::resumed(table, columns, time())
-                                                     : CsvWriter(table, columns));
+        record_ = std::make_unique<DeployRecord>(stage_.folder, goes_on ? std::optional(time()) : std::nullopt);
     }
 
     bool run() {
@@ -337,23 +315,13 @@ private:
             if (is_driven && marks_.touched > 0 && time() > marks_.touched + first_tenth)
                 marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
         }
-        table_->write_row({time(), double(phase_), 1e3 * tool_radius(), 1e3 * profile_.mean_diameter,
-                           1e3 * profile_.least_diameter, 1e3 * profile_.most_diameter, 1e3 * profile_.length, pressure,
-                           stent.kinetic, stent.internal, stent.plastic, wall.kinetic, wall.internal,
-                           1e3 * marks_.deepest});
+        record_->add({time(), phase_, tool_radius(), pressure, stent, wall, marks_.deepest}, profile_);
         const double frame = program_.end() / config_.deployment.frames;
-        if (stent_series_->size() == 0 || time() >= frame * double(stent_series_->size()) - 0.5 * row)
-            write_frames(nullptr);
+        if (record_->frames() == 0 || time() >= frame * double(record_->frames()) - 0.5 * row) write_frames(nullptr);
     }
 
     void write_frames(const SignedDistance* lumen) {
-        const auto write = [&](PvdWriter& series, const PolyData& data, const char* name) {
-            const auto file = frame_file(name, series.size());
-            write_polydata(stage_.folder.root() / file, data, {.time = time()});
-            series.add(time(), file);
-        };
-        write(*stent_series_, stent_picture(*stent_, lumen), "stent");
-        write(*wall_series_, wall_picture(*wall_), "wall");
+        record_->add_frames(time(), stent_picture(*stent_, lumen), wall_picture(*wall_));
     }
 
     /// A crimper that left a part of the stent behind has lost it.
@@ -447,8 +415,7 @@ private:
     StentProfile profile_;
     Marks marks_;
     ContactAccount past_;   // of contacts that are over
-    std::unique_ptr<PvdWriter> stent_series_, wall_series_;
-    std::unique_ptr<CsvWriter> table_;
+    std::unique_ptr<DeployRecord> record_;
     std::vector<double> contact_steps_;   // of the phases that have begun: what their contacts are as stiff for [s]
     CheckpointOrigin origin_;
     std::filesystem::path checkpoint_;
