@@ -1,43 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decks that are wrong, one kind each: what is said, and where.
-#include <filesystem>
-#include <fstream>
-#include <random>
+#include "tests/config/mistakes.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include "patency/base/errors.h"
-#include "patency/config/deck.h"
-#include "tests/config/decks.h"
 
 namespace patency::deck {
 namespace {
-
-std::string mistakes_in(const std::string& deck, const Settings& settings = {}) {
-    try {
-        parse_case(deck, "case.yaml", "", settings);
-    } catch (const DeckError& e) {
-        EXPECT_EQ(e.code(), ExitCode::deck);
-        return e.what();
-    }
-    return "accepted";
-}
-
-std::string run_mistakes_in(const std::string& deck) {
-    try {
-        parse_runs(deck, "case.yaml");
-    } catch (const DeckError& e) {
-        return e.what();
-    }
-    return "accepted";
-}
-
-/// The report of exactly this one mistake.
-std::string only(const std::string& mistake) { return "case.yaml:" + mistake + "\n1 mistake; nothing was run."; }
-
-/// pipe_deck, lines 1-17, with lines behind it.
-std::string pipe_and(const std::string& lines) { return pipe_deck + lines; }
 
 TEST(Mistakes, MissingKey) {
     EXPECT_EQ(mistakes_in(pipe_with("  spacing: \"0.2 mm\"\n", "")),
@@ -89,107 +57,6 @@ TEST(Mistakes, OfSolids) {
 TEST(Mistakes, MissingRecord) {
     EXPECT_EQ(mistakes_in(pipe_with("blood:\n  density: \"1060 kg/m^3\"\n  viscosity: \"3.5 mPa s\"\n", "")),
               only("1:1: blood is missing: the blood's properties; it needs density"));
-}
-
-TEST(Mistakes, MissingForAType) {
-    EXPECT_EQ(mistakes_in(pipe_with(", length: \"15 mm\"", "")),
-              only("4:10: geometry.shape.length is missing: the length along the axis, for example \"20 mm\""));
-    EXPECT_EQ(mistakes_in(pipe_with("type: pressure\n    pressure: \"0 mmHg\"", "type: resistance")),
-              only("13:5: openings.outlet: needs a resistance, or aorta.pressure, from which it is tuned to the bed"));
-}
-
-TEST(Mistakes, AnOutletHasAllOfItsNumbersOrNone) {
-    const auto with = [](const std::string& outlet, const std::string& more = "") {
-        return mistakes_in(pipe_with("type: pressure\n    pressure: \"0 mmHg\"", outlet) + more);
-    };
-    const std::string aorta = "aorta: {pressure: 93 mmHg}\n";
-    EXPECT_EQ(with("type: rcr", aorta), "accepted");
-    EXPECT_EQ(with("type: coronary", aorta), "accepted");
-    EXPECT_EQ(with("type: pressure", aorta), "accepted");
-    EXPECT_EQ(with("type: rcr"),
-              only("13:5: openings.outlet: needs its resistances and compliances, or aorta.pressure, from "
-                   "which it is tuned to the bed"));
-    EXPECT_EQ(with("type: pressure"),
-              only("13:5: openings.outlet: needs a pressure or a waveform, or aorta.pressure, which it has then"));
-    EXPECT_EQ(
-        with("type: rcr\n    distal_resistance: 1 Wood", aorta),
-        only("13:5: openings.outlet: has not all of its numbers: compliance is missing; without any it is tuned to "
-             "the bed"));
-    EXPECT_EQ(with("type: coronary\n    compliance: 1 mL/mmHg\n    proximal_resistance: 1 Wood", aorta),
-              only("13:5: openings.outlet: has not all of its numbers: distal_resistance, microvascular_resistance and "
-                   "myocardial_compliance are missing; without any it is tuned to the bed"));
-}
-
-TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
-    const auto with = [](const std::string& geometry) {
-        return mistakes_in(
-            pipe_with("  shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}\n", "  " + geometry + "\n"));
-    };
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlet: outlet_2"), "accepted");
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  inlett: outlet_2"),
-              only("6:3: geometry.inlett: unknown key. Did you mean \"inlet\"?"));
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  cut_back: {outlet_2: 2.7 mm}"), "accepted");
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  cut_back: {outlet_2: 0 mm}"),
-              only("6:24: geometry.cut_back.outlet_2: 0 mm is out of range: above 0 mm, at most 10000 mm"));
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  cut_bck: {outlet_2: 1 mm}"),
-              only("6:3: geometry.cut_bck: unknown key. Did you mean \"cut_back\"?"));
-    EXPECT_EQ(
-        with("network: t.json\n  cut_back: {outlet_2: 1 mm}"),
-        only("5:13: geometry.cut_back: can cut a surface only; the ends of a network and of a shape are square to "
-             "their axes"));
-    EXPECT_EQ(with("network: t.json\n  label: 2"),
-              only("5:10: geometry.label: is one of a label map, which is a surface here"));
-    EXPECT_EQ(with("surface: t.nii\n  unit: mm\n  label: two").substr(0, 9), "case.yaml");
-    EXPECT_EQ(with("network: t.json\n  inlet: outlet_2"),
-              only("5:10: geometry.inlet: can be chosen of a surface only; a network and a shape say it themselves"));
-}
-
-TEST(Mistakes, OpeningsThatTheLumenDoesNotHave) {
-    int asked = 0;
-    const auto report = [&](const std::string& deck, std::vector<std::string> names) {
-        try {
-            parse_runs(deck, "case.yaml", {}, {}, [&](const Case&) {
-                ++asked;
-                return names.empty() ? std::nullopt : std::optional(names);
-            });
-        } catch (const DeckError& e) {
-            return std::string(e.what());
-        }
-        return std::string("accepted");
-    };
-    const std::vector<std::string> both{"inlet", "outlet"};
-    EXPECT_EQ(report(pipe_deck, both), "accepted");
-    EXPECT_EQ(
-        report(pipe_with("  inlet:", "  inlett:"), both),
-        only("9:3: openings.inlett: the lumen has no such opening. Did you mean \"inlet\"? It has inlet and outlet"));
-    // With the deck's other mistakes, in its order; of an opening that is wrong inside too.
-    const std::string more = report(
-        pipe_with("viscosity: \"3.5 mPa s\"\nopenings:\n  inlet:\n    type: velocity\n    velocity: \"0.1 m/s\"",
-                  "viscocity: \"3.5 mPa s\"\nopenings:\n  inlett:\n    type: velocity\n    velocity: \"0.1 mm\""),
-        both);
-    EXPECT_NE(more.find("7:3: blood.viscocity"), more.npos) << more;
-    EXPECT_NE(more.find("9:3: openings.inlett: the lumen has no such opening"), more.npos) << more;
-    EXPECT_NE(more.find("11:15: openings.inlett.velocity"), more.npos) << more;
-    EXPECT_NE(report(pipe_deck, {"inlet", "outlet", "side"}).find("9:3: openings.side is missing: what happens"),
-              std::string::npos);
-    EXPECT_EQ(report(pipe_with("  inlet:", "  qqqqqqqqqqqq:"), {"inlet", "outlet", "side"}).find("Did you mean"),
-              std::string::npos);
-    EXPECT_EQ(report(pipe_with("  inlet:", "  inlett:"), {}), "accepted");   // nobody knows
-    // Nobody is asked of a geometry that is wrong itself, nor of a surface without need.
-    const auto with = [&](const std::string& geometry, const std::string& name) {
-        std::string deck = pipe_with("  shape: {type: tube, diameter: \"3 mm\", length: \"15 mm\"}", "  " + geometry);
-        return report(deck.replace(deck.find("  outlet:"), 9, "  " + name + ":"), {"inlet", "outlet_1"});
-    };
-    asked = 0;
-    EXPECT_EQ(with("shape: {type: tube, diameter: \"-3 mm\", length: \"15 mm\"}", "outlet").find("no such"),
-              std::string::npos);
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm", "outlet_1"), "accepted");
-    EXPECT_EQ(with("surface: t.stl\n  unit: mm\n  names: {outlet_1: left}", "left"), "accepted");
-    EXPECT_EQ(asked, 0);
-    EXPECT_NE(with("surface: t.stl\n  unit: mm", "outlet")
-                  .find("13:3: openings.outlet: the lumen has no such opening. "
-                        "Did you mean \"outlet_1\"?"),
-              std::string::npos);
 }
 
 TEST(Mistakes, LesionThatCannotBe) {
@@ -329,11 +196,6 @@ TEST(Mistakes, KeysThatExcludeEachOther) {
               only("10:5: openings.inlet: needs one of velocity, peak_velocity or waveform"));
 }
 
-TEST(Mistakes, OpeningNameThatIsNoName) {
-    EXPECT_EQ(mistakes_in(pipe_with("  outlet:", "  out let:")),
-              only("12:3: openings: \"out let\" is no name; names have letters, digits, _ and -, at most 64"));
-}
-
 TEST(Mistakes, PeriodicWithoutPeriod) {
     EXPECT_EQ(mistakes_in(pipe_with("name: pipe", "name: pipe, mode: periodic")),
               only("2:7: case.period is missing: the time of one heart beat, for example \"0.8 s\""));
@@ -434,55 +296,6 @@ TEST(Mistakes, InRuns) {
         << "a mistake of the deck is said once";
 }
 
-TEST(Hostile, NoFile) {
-    EXPECT_THROW(read_case("no/such/file.yaml"), FileError);
-    EXPECT_THROW(read_case(testing::TempDir()), FileError);
-}
-
-TEST(Hostile, NotADeck) {
-    EXPECT_EQ(mistakes_in(""), only("1:1: the deck is empty; it starts with \"version: 1\""));
-    EXPECT_EQ(mistakes_in("# nothing\n"), only("1:1: the deck is empty; it starts with \"version: 1\""));
-    EXPECT_EQ(mistakes_in("[1, 2]"), only("1:1: a deck is a record of keys; it starts with \"version: 1\""));
-    EXPECT_EQ(mistakes_in("\x89PNG\r\n\x1a\n"), only("1:1: this is not a text file in UTF-8"));
-    EXPECT_EQ(mistakes_in(std::string("version: 1\0", 11)), only("1:1: this is not a text file in UTF-8"));
-    EXPECT_EQ(mistakes_in(pipe_and("---\nversion: 1\n")),
-              only("18:1: a second document starts here; a deck is one document"));
-    for (const char* key : {"? [a]\n: b\n", "? {a: 1}\n: b\n", "? ~\n: b\n"})
-        EXPECT_EQ(mistakes_in(key), only("1:3: a key must be a single word")) << key;
-    EXPECT_NE(mistakes_in("? {a: 1, a: 2}\n: b\n").find("1:10: ?.a: repeated"), std::string::npos);
-}
-
-TEST(Hostile, Syntax) {
-    EXPECT_EQ(mistakes_in(pipe_with("{name: pipe}", "{name: pipe")).substr(0, 12), "case.yaml:3:");
-    EXPECT_NE(mistakes_in("{\"version\": 1,\n").find("end of map"), std::string::npos)
-        << "an unclosed bracket is called so";
-    EXPECT_NE(mistakes_in("a: *b\n").find("case.yaml:1:4: not valid YAML"), std::string::npos);
-    EXPECT_NE(mistakes_in("a: b: c\n").find("case.yaml:1:5: not valid YAML"), std::string::npos);
-}
-
-TEST(Hostile, Nesting) {
-    for (const std::string opening : {"[", "{a: ", "- ", "? "}) {
-        std::string deck;
-        for (int i = 0; i < 20000; ++i) deck += opening;
-        EXPECT_NE(mistakes_in(deck).find("nested more than 32 deep"), std::string::npos) << opening;
-    }
-}
-
-TEST(Hostile, Aliases) {
-    std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
-    for (int i = 1; i < 20; ++i)
-        bomb += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i,
-                            i - 1);
-    EXPECT_NE(mistakes_in(bomb).find("more than 50000 values"), std::string::npos);
-    EXPECT_NE(mistakes_in("a: &a [*a]\n").find("an alias stands inside what it refers to"), std::string::npos);
-}
-
-TEST(Hostile, ManyMistakesEndSomewhere) {
-    std::string deck;
-    for (int i = 0; i < 20000; ++i) deck += "key_" + std::to_string(i) + ": 1\n";
-    EXPECT_TRUE(mistakes_in(deck).ends_with("1000 or more mistakes; nothing was run."));
-}
-
 TEST(Mistakes, AStartFromCellsNeedsAFlowThatCellsCanSolve) {
     EXPECT_EQ(mistakes_in(pipe_and("initial: {velocity: cells}\n")),
               only("18:21: initial.velocity: cells needs a surface or a network, walls at rest and a steady flow; "
@@ -497,33 +310,6 @@ TEST(Mistakes, AStartFromCellsNeedsAFlowThatCellsCanSolve) {
             mistakes_in(vessel + hindrance + "initial: {pressure: cells}\n").find("initial.pressure: cells needs"),
             std::string::npos)
             << hindrance;
-}
-
-TEST(Hostile, LargeFile) {
-    const auto path = std::filesystem::path(testing::TempDir()) / "patency_large_deck.yaml";
-    std::ofstream(path) << std::string(3 << 20, '#');
-    EXPECT_THROW(read_case(path), DeckError);
-    std::filesystem::remove(path);
-}
-
-// Decks cut anywhere, and decks with random bytes changed, are read or refused, never anything else.
-TEST(Hostile, TruncatedAndDamagedDecks) {
-    const std::string& whole = valid_decks[1];
-    int refused = 0;
-    for (std::size_t length = 0; length < whole.size(); length += 7)
-        refused += mistakes_in(whole.substr(0, length)) != "accepted";
-    EXPECT_GT(refused, 0);
-    std::mt19937 random(1);
-    const std::string signs = "{}[]:,-?&*!|>'\"%@`#\n\t \\0aZ~.";
-    for (int i = 0; i < 1500; ++i) {
-        std::string deck = valid_decks[i % valid_decks.size()];
-        for (int k = 0; k < 3; ++k) deck[random() % deck.size()] = signs[random() % signs.size()];
-        try {
-            parse_runs(deck);
-        } catch (const DeckError& e) {
-            ASSERT_TRUE(std::string(e.what()).ends_with("nothing was run.")) << deck;
-        }
-    }
 }
 
 }   // namespace
