@@ -181,18 +181,18 @@ TEST(Page, TheWorstLesionIsThatOfTheLowestFfrElseTheTightest) {
 }
 
 TEST(Page, ACurveHasItsLesionAndItsLevel) {
-    const PullbackCurve curve{"before", "before", {0, 10, 20}, {1, 0.9, 0.75}};
-    const std::string svg = draw_pullback({.x_label = "mm",
-                                           .y_label = "a < b",
-                                           .curves = {curve},
-                                           .spans = {{5, 8, "lesion"}, {90, 95, "stent"}},
-                                           .least = {},
-                                           .levels = {0.8, 0.2}});
+    const PlotCurve curve{"before", "before", {0, 10, 20}, {1, 0.9, 0.75}};
+    const std::string svg = draw_curves({.x_label = "mm",
+                                         .y_label = "a < b",
+                                         .curves = {curve},
+                                         .spans = {{5, 8, "lesion"}, {90, 95, "stent"}},
+                                         .least = {},
+                                         .levels = {0.8, 0.2}});
     EXPECT_TRUE(has(svg, "class=\"span lesion\""));
     EXPECT_EQ(svg.find("span stent"), svg.npos);                            // beyond the curve
     EXPECT_EQ(svg.find("class=\"level\""), svg.rfind("class=\"level\""));   // one level is within the axis
     EXPECT_TRUE(has(svg, "a &lt; b"));
-    EXPECT_EQ(draw_pullback({.x_label = "", .y_label = "", .curves = {}, .spans = {}, .least = {}, .levels = {}}), "");
+    EXPECT_EQ(draw_curves({.x_label = "", .y_label = "", .curves = {}, .spans = {}, .least = {}, .levels = {}}), "");
 }
 
 }   // namespace

@@ -12,11 +12,9 @@ namespace patency {
 
 namespace {
 
-constexpr std::size_t line_styles = 8;   // the style sheet's series
-
 /// A column of the openings' waveforms over the last beat, from its begin on.
-PullbackCurve over_beat(const CsvTable& waves, const std::string& column, double begin, double end, double scale) {
-    PullbackCurve curve;
+PlotCurve over_beat(const CsvTable& waves, const std::string& column, double begin, double end, double scale) {
+    PlotCurve curve;
     const auto *times = waves.find("time_s"), *values = waves.find(column);
     if (times && values)
         for (std::size_t k = 0; k < times->size(); ++k)
@@ -30,19 +28,19 @@ std::string beat_of(const RunResults& results, const FlowPart& flow) {
     if (!flow.waveforms || !part.contains("period_s") || !part.contains("time_s") || !part.contains("openings"))
         return {};
     const double end = part["time_s"].get<double>(), begin = end - part["period_s"].get<double>();
-    PullbackPlot flows{.x_label = "Time in the beat, s",
-                       .y_label = "Flow, mL/min (in at the inlet)",
-                       .curves = {},
-                       .spans = {},
-                       .levels = {0},
-                       .title = "Flow at the openings over a beat"},
+    CurvePlot flows{.x_label = "Time in the beat, s",
+                    .y_label = "Flow, mL/min (in at the inlet)",
+                    .curves = {},
+                    .spans = {},
+                    .levels = {0},
+                    .title = "Flow at the openings over a beat"},
         pressures = flows;
     pressures.y_label = "Pressure, mmHg", pressures.title = "Pressure at the openings over a beat",
     pressures.levels = {};
     std::string legend;
     std::size_t number = 0;
     for (const auto& [name, opening] : part["openings"].items()) {
-        const std::string style = fmt::format("series-{}", number++ % line_styles);
+        const std::string style = series_style(number++);
         const double sign = opening.value("flow_m3_per_s", 0.0) < 0 ? -1 : 1;   // as the blood goes
         for (auto& [plot, column, scale] : {std::tuple{&flows, "_flow_m3_per_s", sign * as_mL_per_min.scale},
                                             {&pressures, "_mean_pressure_pa", as_mmHg.scale}}) {
@@ -51,7 +49,7 @@ std::string beat_of(const RunResults& results, const FlowPart& flow) {
         }
         legend += fmt::format("<span class=\"key {}\">{}</span> ", style, escaped(name));
     }
-    const std::string drawn = draw_pullback(flows) + draw_pullback(pressures);
+    const std::string drawn = draw_curves(flows) + draw_curves(pressures);
     if (drawn.empty()) return {};
     const std::string heading = results.flows.size() > 1 ? "<h3>" + flow.title + "</h3>\n" : "";
     return fmt::format("<div>\n{}<p class=\"legend\">{}</p>\n{}</div>\n", heading, legend, drawn);

@@ -51,7 +51,7 @@ std::string marks(const Axis& x, const Axis& y) {
     return svg;
 }
 
-std::string line(const PullbackCurve& curve, const Axis& x, const Axis& y) {
+std::string line(const PlotCurve& curve, const Axis& x, const Axis& y) {
     std::string path;
     for (std::size_t k = 0; k < curve.x.size(); ++k)
         path += fmt::format("{}{:.1f} {:.1f}", k ? " L" : "M", x.at(curve.x[k]), y.at(curve.y[k]));
@@ -60,9 +60,14 @@ std::string line(const PullbackCurve& curve, const Axis& x, const Axis& y) {
 
 }   // namespace
 
-std::string draw_pullback(const PullbackPlot& plot) {
+std::string series_style(std::size_t number) {
+    constexpr std::size_t styles = 8;
+    return fmt::format("series-{}", number % styles);
+}
+
+std::string draw_curves(const CurvePlot& plot) {
     Axis x{.begin = left, .end = width - right}, y{.begin = height - bottom, .end = top};
-    for (const PullbackCurve& curve : plot.curves)
+    for (const PlotCurve& curve : plot.curves)
         for (std::size_t k = 0; k < curve.x.size(); ++k) x.include(curve.x[k]), y.include(curve.y[k]);
     if (!(x.high > x.low)) return {};
     if (plot.least) y.include(*plot.least);
@@ -81,7 +86,7 @@ std::string draw_pullback(const PullbackPlot& plot) {
     for (const double level : plot.levels)
         if (y.has(level))
             svg += fmt::format("<path class=\"level\" d=\"M{} {:.1f} H{}\"/>\n", left, y.at(level), width - right);
-    for (const PullbackCurve& curve : plot.curves) {
+    for (const PlotCurve& curve : plot.curves) {
         if (curve.x.size() > 1) svg += line(curve, x, y);
         for (std::size_t k = 0; plot.has_points && k < curve.x.size(); ++k)
             svg += fmt::format("<circle class=\"point {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", curve.style,

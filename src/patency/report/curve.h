@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves along a vessel as SVG, for the page without a script and on paper. Colours are the style sheet's.
+// Curves as SVG, along a vessel, over a beat or a sweep, for the page without a script and on paper. Colours are the style sheet's.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace patency {
 
-struct PullbackCurve {
-    std::string label, style;   ///< style: a class of the style sheet: "before", "after", "estimate"
+struct PlotCurve {
+    std::string label, style;   ///< style: a class of the style sheet: "before", "after", "estimate", one of a series
     std::vector<double> x, y;
 };
+
+/// The style sheet's class of one of several things of a kind; there are eight, then they begin again.
+std::string series_style(std::size_t number);
 
 struct Span {
     double from, to;
@@ -19,9 +23,9 @@ struct Span {
 };
 
 /// Axes fit the curves.
-struct PullbackPlot {
+struct CurvePlot {
     std::string x_label, y_label;
-    std::vector<PullbackCurve> curves;
+    std::vector<PlotCurve> curves;
     std::vector<Span> spans;
     std::optional<double> least{};   ///< the axis reaches down to it, or farther
     std::vector<double> levels;      ///< horizontal lines, drawn where the axis has them
@@ -30,6 +34,6 @@ struct PullbackPlot {
 };
 
 /// Empty where no two values of x differ.
-std::string draw_pullback(const PullbackPlot& plot);
+std::string draw_curves(const CurvePlot& plot);
 
 }   // namespace patency

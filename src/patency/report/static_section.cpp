@@ -77,8 +77,8 @@ std::string pictures(const RunResults& results) {
 }
 
 /// The numbers of a column along the line to one outlet.
-PullbackCurve curve_of(const CsvTable& table, double outlet, const char* column, double scale) {
-    PullbackCurve curve;
+PlotCurve curve_of(const CsvTable& table, double outlet, const char* column, double scale) {
+    PlotCurve curve;
     const auto *arc = table.find("arc_m"), *line = table.find("outlet"), *values = table.find(column);
     if (arc && line && values)
         for (std::size_t k = 0; k < arc->size(); ++k)
@@ -92,12 +92,12 @@ std::string curves(const RunResults& results) {
     const auto& part = results.part(first);
     const auto worst = worst_lesion(part);
     const double outlet = worst ? outlet_through(*first.pullback, part["lesions"][*worst]) : 1;
-    PullbackPlot pressure{.x_label = "Distance from the inlet, mm",
-                          .y_label = "Pressure, mmHg",
-                          .curves = {},
-                          .spans = {},
-                          .least = {},
-                          .levels = {}},
+    CurvePlot pressure{.x_label = "Distance from the inlet, mm",
+                       .y_label = "Pressure, mmHg",
+                       .curves = {},
+                       .spans = {},
+                       .least = {},
+                       .levels = {}},
         ffr = pressure;
     ffr.y_label = "FFR", ffr.levels = {0.8}, ffr.least = 0.7;
     std::string legend;
@@ -120,13 +120,13 @@ std::string curves(const RunResults& results) {
     const auto names = outlet_names(part);
     const std::size_t number = std::size_t(outlet) - 1;
     if (const auto span = stent_span(*results.summary)) {
-        for (PullbackPlot* plot : {&pressure, &ffr}) plot->spans.push_back({span->start, span->end, "stent"});
+        for (CurvePlot* plot : {&pressure, &ffr}) plot->spans.push_back({span->start, span->end, "stent"});
         legend += " <span class=\"key stent\">stent</span>";
     }
     return fmt::format(
         "<div class=\"still-curves\"><h3>Along the vessel to {}</h3>\n<p class=\"legend\">{}{}</p>\n{}{}</div>\n",
         number < names.size() ? escaped(names[number]) : "the outlet", legend,
-        worst ? " <span class=\"key lesion\">lesion</span>" : "", draw_pullback(pressure), draw_pullback(ffr));
+        worst ? " <span class=\"key lesion\">lesion</span>" : "", draw_curves(pressure), draw_curves(ffr));
 }
 
 }   // namespace

@@ -17,8 +17,6 @@ namespace patency {
 
 namespace {
 
-constexpr int series_styles = 8;   // of the style sheet
-
 std::string with_unit(const std::string& label, std::string_view unit) {
     return unit.empty() ? label : fmt::format("{}, {}", label, unit);
 }
@@ -73,8 +71,8 @@ AcrossPlots across_plots(const Sweep& sweep) {
 }
 
 /// One curve for each combination of the other keys.
-std::vector<PullbackCurve> curves_of(const Sweep& sweep, const SweepQuantity& quantity, const AcrossPlots& across) {
-    std::vector<PullbackCurve> curves;
+std::vector<PlotCurve> curves_of(const Sweep& sweep, const SweepQuantity& quantity, const AcrossPlots& across) {
+    std::vector<PlotCurve> curves;
     std::map<std::string, std::vector<std::pair<double, double>>> points;
     std::vector<std::string> labels;   // in the table's order: a curve has one colour in all plots
     for (std::size_t r = 0; r < sweep.rows.size(); ++r) {
@@ -89,7 +87,7 @@ std::vector<PullbackCurve> curves_of(const Sweep& sweep, const SweepQuantity& qu
     for (std::size_t k = 0; k < labels.size(); ++k) {
         auto& here = points[labels[k]];
         std::sort(here.begin(), here.end());
-        PullbackCurve curve{labels[k], fmt::format("series-{}", k % series_styles), {}, {}};
+        PlotCurve curve{labels[k], series_style(k), {}, {}};
         for (const auto& [x, y] : here) curve.x.push_back(x), curve.y.push_back(y);
         curves.push_back(std::move(curve));
     }
@@ -100,18 +98,18 @@ std::string plots_section(const Sweep& sweep, const std::vector<SweepQuantity>& 
     const AcrossPlots across = across_plots(sweep);
     std::string html;
     for (const SweepQuantity& q : quantities) {
-        const PullbackPlot plot{.x_label = across.label,
-                                .y_label = with_unit(q.label, q.measure.unit),
-                                .curves = curves_of(sweep, q, across),
-                                .spans = {},
-                                .levels = {},
-                                .title = q.label + " over " + across.label,
-                                .has_points = true};
+        const CurvePlot plot{.x_label = across.label,
+                             .y_label = with_unit(q.label, q.measure.unit),
+                             .curves = curves_of(sweep, q, across),
+                             .spans = {},
+                             .levels = {},
+                             .title = q.label + " over " + across.label,
+                             .has_points = true};
         std::string legend;
         if (plot.curves.size() > 1)
-            for (const PullbackCurve& curve : plot.curves)
+            for (const PlotCurve& curve : plot.curves)
                 legend += fmt::format("<span class=\"key {}\">{}</span> ", curve.style, escaped(curve.label));
-        if (const std::string svg = draw_pullback(plot); !svg.empty())
+        if (const std::string svg = draw_curves(plot); !svg.empty())
             html += fmt::format("<h3>{}</h3>\n{}{}", escaped(plot.title),
                                 legend.empty() ? "" : "<p class=\"legend\">" + legend + "</p>\n", svg);
     }
