@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "command_line.h"
@@ -42,8 +41,6 @@ struct Inspection : Vessel {
         return sum;
     }
 };
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 Inspection inspect(const InspectOptions& o) {
     Inspection result{holds_network(o.path) ? check_vessel(read_network(o.path, o.unit, o.space), o.inlet)
@@ -108,7 +105,7 @@ void print_table(const InspectOptions& o, const Inspection& r) {
             "  {:>2} {:<11} {:>11.3f} {:>11.4g} {:>10.3f} {:>10.3f} {:>10.3f}   {:>7.3f} {:>7.3f} {:>7.3f}  {:>10}  "
             "{}\n",
             k + 1, opening.name, 2e3 * opening.radius, 1e6 * opening.area, c.x, c.y, c.z, n.x, n.y, n.z,
-            angle ? fmt::format("{:.1f} deg", degrees(*angle)) : "unknown",
+            angle ? fmt::format("{:.1f} deg", in_unit(*angle, "deg")) : "unknown",
             r.openings[k].face_id             ? std::to_string(*r.openings[k].face_id)
             : r.openings[k].triangles.empty() ? "open"
                                               : "flat");
@@ -190,7 +187,7 @@ Json as_json(const InspectOptions& o, const Inspection& r) {
                                                   {"flatness_error_mm", 1e3 * opening.flatness},
                                                   {"centre_mm", scaled(opening.opening.centre, 1e3)},
                                                   {"normal", scaled(opening.opening.normal, 1)},
-                                                  {"off_square_deg", angle ? Json(degrees(*angle)) : Json()},
+                                                  {"off_square_deg", angle ? Json(in_unit(*angle, "deg")) : Json()},
                                                   {"model_face_id", opening.face_id ? Json(*opening.face_id) : Json()}};
     }
     if (r.along) add_along(json, *r.along);

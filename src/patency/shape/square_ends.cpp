@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "patency/base/errors.h"
+#include "patency/base/units.h"
 #include "patency/shape/surface_cut.h"
 
 namespace patency {
@@ -86,8 +86,6 @@ Seen find_seen(const Surface& surface, const std::vector<Vec3>& rim, const Squar
             for (const std::uint32_t point : t) seen.around[point] = 1;
     return seen;
 }
-
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 }   // namespace
 
@@ -214,7 +212,7 @@ Finding cut_end(Surface& surface, std::span<const AxisEnd> ends, std::size_t whi
             size,
             fmt::format("{} was cut off square to the centreline {:.3g} mm before its end, which was {:.0f} degrees "
                         "off; geometry.cut_back asks for it.",
-                        end.name, mm, degrees(off_square(end, cut))),
+                        end.name, mm, in_unit(off_square(end, cut), "deg")),
             std::move(shown)};
 }
 

@@ -125,7 +125,7 @@ void follow(Scene& scene) {
 
 /// Compliances begin as the estimate's flow would leave them, where the deck names no pressure and no pulse tells what is in them.
 void fill_compliances(Scene& scene) {
-    if (find_driving_pulse(scene.config)) return;
+    if (is_driven_by_pulse(scene.config)) return;
     const auto& openings = scene.vessel->openings;
     for (std::size_t k = 0; k < openings.size(); ++k)
         for (std::size_t e = 0; e < scene.ends.size(); ++e) {

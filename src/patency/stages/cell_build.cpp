@@ -29,7 +29,7 @@ double start_of(const EndLaw& law) {
 deck::Case start_of(const deck::Case& config, const Scene& scene) {
     deck::Case start = config;
     start.about.mode = deck::Mode::steady;
-    const bool is_known = find_driving_pulse(config);
+    const bool is_known = is_driven_by_pulse(config);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         deck::Opening& opening = start.openings.at(scene.ends[k].name);
         const double value = opening.waveform ? start_of(scene.laws[k]) : 0;
@@ -137,7 +137,7 @@ CellMesh place_points(Scene& scene) {
 
 /// Flows and pressures that the ends start from, and compliances that these have filled where no pulse tells what is in them.
 void start_ends(Scene& scene, std::span<const CellEndState> states) {
-    const bool is_known = find_driving_pulse(scene.config);
+    const bool is_known = is_driven_by_pulse(scene.config);
     for (std::size_t k = 0; k < states.size(); ++k) {
         EndLaw& law = scene.laws[k];
         scene.ends[k].flow = law.known_flow = states[k].flow;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "patency/stages/cell_scene.h"
+#include "patency/stages/end_law.h"
 
 namespace patency {
 
@@ -56,11 +57,7 @@ double count_inside(const Lumen& lumen, const SpacingField& field) {
 /// that are alike and one that means are taken of.
 double steps_of(const deck::Case& config) {
     if (config.about.mode == deck::Mode::steady) return 0;
-    const bool repeats_soon = config.numerics.convergence &&
-                              std::any_of(config.openings.begin(), config.openings.end(), [](const auto& named) {
-                                  const deck::Opening& said = named.second;
-                                  return said.type == deck::OpeningType::pressure && !said.pressure;
-                              });
+    const bool repeats_soon = config.numerics.convergence && is_driven_by_pulse(config);
     const double beats = config.numerics.duration / *config.about.period;
     return (repeats_soon ? std::min(3.0, beats) : beats) * config.numerics.steps_per_period;
 }

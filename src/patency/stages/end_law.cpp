@@ -105,22 +105,25 @@ double startup_rate(const Opening& opening, const deck::Blood& blood) {
     return blood.viscosity / blood.density / (4 * opening.radius * opening.radius);
 }
 
+bool has_pulse(const deck::Opening& said) { return said.type == deck::OpeningType::pressure && !said.pressure; }
+
 /// The state that an outlet begins with: of a flow that a pulsing pressure drives the one that repeats, as if the vessel lost nothing;
 /// empty else.
 OutletState start_of(const OutletModel& outlet, const deck::Case& config) {
-    if (const deck::Waveform* pulse = find_driving_pulse(config))
-        return make_periodic_state(outlet, make_signal_waveform(*pulse, config, Dimension::pressure, 1),
-                                   config.about.period.value());
-    return make_steady_state(outlet, 0);
+    if (!is_driven_by_pulse(config)) return make_steady_state(outlet, 0);
+    const auto driving = std::find_if(config.openings.begin(), config.openings.end(),
+                                      [](const auto& named) { return has_pulse(named.second); });
+    return make_periodic_state(outlet,
+                               make_signal_waveform(driving->second.waveform.value(), config, Dimension::pressure, 1),
+                               config.about.period.value());
 }
 
 }   // namespace
 
-const deck::Waveform* find_driving_pulse(const deck::Case& config) {
-    if (config.about.mode != deck::Mode::periodic) return nullptr;
-    for (const auto& [name, said] : config.openings)
-        if (said.type == deck::OpeningType::pressure && said.waveform) return &*said.waveform;
-    return nullptr;
+bool is_driven_by_pulse(const deck::Case& config) {
+    return config.about.mode == deck::Mode::periodic &&
+           std::any_of(config.openings.begin(), config.openings.end(),
+                       [](const auto& named) { return has_pulse(named.second); });
 }
 
 EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config) {

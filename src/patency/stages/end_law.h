@@ -42,9 +42,9 @@ struct EndLaw {
     bool prescribes_flow() const { return type == deck::OpeningType::velocity || type == deck::OpeningType::flow; }
 };
 
-/// The pressure over time that drives a periodic flow; none where a flow is prescribed or the deck is steady. Outlets then begin in the
-/// state that it brings them back to from beat to beat.
-const deck::Waveform* find_driving_pulse(const deck::Case& config);
+/// Whether a pressure over time, an opening's own or the aorta's, drives a periodic flow. Outlets then begin in the state that it brings
+/// them back to from beat to beat.
+bool is_driven_by_pulse(const deck::Case& config);
 
 /// The law of an opening. Files of waveforms are read here: throws FileError or DeckError naming the opening.
 EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config);

@@ -28,7 +28,7 @@ bool does_slide(const Scene& scene) {
 }
 
 int quiet_needed(const Scene& scene) {
-    if (find_driving_pulse(scene.config))
+    if (is_driven_by_pulse(scene.config))
         return 1;   // beds begin in the beat that they repeat: nothing slow is left in them
     if (!does_slide(scene)) return quiet_in_a_row;
     const bool is_sound_let_out =

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
@@ -117,7 +116,7 @@ std::string how_to_cut(const InitPlan& plan, const std::string& name, double len
 
 void describe_oblique_ends(Lines& out, const InitPlan& plan) {
     for (const ObliqueEnd& end : plan.oblique_ends) {
-        const double degrees = end.angle * 180 / std::numbers::pi;
+        const double degrees = in_unit(end.angle, "deg");
         if (end.cut_back > 0)
             out.add("{} was {:.0f} degrees off square, its section {:.1f} % larger than the vessel: cut back by {}.",
                     shown_name(end.name), degrees, 100 * end.excess(), format_quantity(end.cut_back, "mm"));
@@ -192,7 +191,7 @@ std::string geometry_text(const InitPlan& plan, const std::filesystem::path& fol
         if (end.cut_back > 0)
             text += commented("    " + shown_name(end.name) + ": " + quantity(end.cut_back, "mm"),
                               fmt::format("it is {:.0f} degrees off square, so {:.1f} % too large",
-                                          end.angle * 180 / std::numbers::pi, 100 * end.excess()));
+                                          in_unit(end.angle, "deg"), 100 * end.excess()));
     if (g.surface) text += commented("  # extensions: {diameters: 2}", "straight pieces on all openings");
     return text;
 }
@@ -320,8 +319,9 @@ std::string deck_text(const Vessel& vessel, const InitPlan& plan, const std::fil
                       "Newtonian; laws that thin with shear: carreau_yasuda, casson");
     text += wall_text(plan);
     text += openings_text(vessel, plan);
-    text += "aorta:\n" + commented("  pressure: " + quantity(*c.aorta.pressure, "mmHg"),
-                                   "mean, of 120 over 80; the reference of FFR");
+    text += "aorta:\n" +
+            commented("  pressure: " + quantity(*c.aorta.pressure, "mmHg"),
+                      is_periodic ? "mean; the reference of FFR" : "mean, of 120 over 80; the reference of FFR");
     if (is_periodic) text += commented("  pulse: " + quantity(c.aorta.pulse, "mmHg"), "systolic less diastolic");
     text += bed_text(plan) + stent_text(vessel, plan);
     text +=

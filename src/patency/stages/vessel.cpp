@@ -9,6 +9,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
+#include "patency/base/units.h"
 #include "patency/io/surface_file.h"
 #include "patency/physics/open_ends/bed.h"
 #include "patency/shape/exact_distance.h"
@@ -87,7 +88,7 @@ SquareCut cut_of_length(const Vessel& vessel, const SectionCutter& cutter, const
         refuse("cannot make it square: its rim reaches so far back that no plane across its branch leaves it whole");
     if (length < least->depth)
         refuse(fmt::format("leaves a part of its oblique rim, {:.0f} degrees off square: at least {:.2f} mm are needed",
-                           off_square(end, *least) * 180 / std::numbers::pi, in_hundredths_of_mm(least->depth)));
+                           in_unit(off_square(end, *least), "deg"), in_hundredths_of_mm(least->depth)));
     return *cut;
 }
 
