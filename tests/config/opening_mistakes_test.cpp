@@ -38,6 +38,26 @@ TEST(Mistakes, AnOutletHasAllOfItsNumbersOrNone) {
                    "myocardial_compliance are missing; without any it is tuned to the bed"));
 }
 
+TEST(Mistakes, ABeatThatIsNoHearts) {
+    const auto with = [](const std::string& period, const std::string& pulse, const std::string& outlet) {
+        std::string deck = pipe_with("type: pressure\n    pressure: \"0 mmHg\"", outlet);
+        deck.replace(deck.find("{name: pipe}"), 12, "{name: pipe, mode: periodic, period: " + period + "}");
+        return mistakes_in(deck + "aorta: {pressure: 93 mmHg, pulse: " + pulse + "}\n");
+    };
+    for (const std::string outlet : {"type: pressure", "type: rcr", "type: coronary"}) {
+        EXPECT_EQ(with("0.8 s", "40 mmHg", outlet), "accepted") << outlet;
+        EXPECT_EQ(with("0.8 s", "93 mmHg", outlet), only("17:35: aorta.pulse: is not less than the mean, 93 mmHg"))
+            << outlet;
+        for (const std::string period : {"0.3 s", "5 s"})
+            EXPECT_EQ(with(period, "40 mmHg", outlet),
+                      only("2:44: case.period: is no heartbeat's, 0.33 to 2 s, whose pressures openings leave to the "
+                           "aorta; give them their own"))
+                << outlet;
+    }
+    // Of openings that have their own nobody asks a heart.
+    EXPECT_EQ(with("5 s", "40 mmHg", "type: pressure\n    pressure: \"0 mmHg\""), "accepted");
+}
+
 TEST(Mistakes, OnlyASurfacesInletCanBeChosen) {
     const auto with = [](const std::string& geometry) {
         return mistakes_in(

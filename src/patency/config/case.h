@@ -227,6 +227,8 @@ struct Opening {
     }
     /// Its pressure is left to the aorta.
     bool has_aortic_pressure() const { return type == OpeningType::pressure && !pressure && !waveform; }
+    /// The muscle that squeezes it is left to the aorta's pulse.
+    bool has_muscle_of_aorta() const { return type == OpeningType::coronary && !myocardial_pressure; }
 };
 
 struct Aorta {

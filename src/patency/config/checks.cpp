@@ -269,8 +269,10 @@ private:
     }
 
     void check_openings() {
-        bool is_pressure_set = false;
+        bool is_pressure_set = false, takes_beat = false;
         for (const auto& [name, opening] : case_.openings) {
+            takes_beat |= opening.has_aortic_pressure() || opening.has_muscle_of_aorta() ||
+                          (opening.type == OpeningType::rcr && opening.is_tuned());
             const std::string path = "openings." + name;
             if (opening.type != OpeningType::velocity && opening.type != OpeningType::flow) is_pressure_set = true;
             if (opening.has_aortic_pressure())
@@ -294,6 +296,19 @@ private:
         expect(case_.openings.empty() || is_pressure_set, "openings",
                "every opening prescribes a flow; one of them must set the pressure (pressure, resistance, rcr or "
                "coronary)");
+        if (takes_beat && case_.about.mode == Mode::periodic) check_beat();
+    }
+
+    /// What the aorta's pulse is made of where openings leave theirs to it (physics/open_ends/heartbeat.h).
+    void check_beat() {
+        constexpr double shortest = 1.0 / 3, longest = 2;   // s
+        if (case_.about.period)
+            expect(*case_.about.period >= shortest && *case_.about.period <= longest, "case.period",
+                   "is no heartbeat's, 0.33 to 2 s, whose pressures openings leave to the aorta; give them their own",
+                   {"case"});
+        if (case_.aorta.pressure)
+            expect(case_.aorta.pulse < *case_.aorta.pressure, "aorta.pulse",
+                   "is not less than the mean, " + format_quantity(*case_.aorta.pressure, "mmHg"), {"aorta.pressure"});
     }
 
     void check_tuned(const Opening& opening, const std::string& path) {
@@ -316,7 +331,7 @@ private:
         expect(!has_some || missing.empty(), path,
                "has not all of its numbers: " + join(missing, ", ", " and ") + (missing.size() == 1 ? " is" : " are") +
                    " missing; without any it is tuned to the bed");
-        if (is_coronary && !o.myocardial_pressure)
+        if (o.has_muscle_of_aorta())
             expect(case_.aorta.pressure.has_value(), path,
                    "needs myocardial_pressure, or aorta.pressure, from whose pulse it follows",
                    {path + ".myocardial_pressure", "aorta.pressure"});

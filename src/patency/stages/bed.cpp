@@ -64,8 +64,7 @@ void complete_openings(deck::Case& config, const std::vector<Opening>& openings)
             else
                 said.pressure = config.aorta.pressure;
         }
-        if (said.type == deck::OpeningType::coronary && !said.myocardial_pressure)
-            said.myocardial_pressure = table(known_beat().times, known_beat().ventricle);
+        if (said.has_muscle_of_aorta()) said.myocardial_pressure = table(known_beat().times, known_beat().ventricle);
         if (said.is_tuned())
             tuned.push_back(&said), diameters.push_back(2 * opening.radius);
         else
