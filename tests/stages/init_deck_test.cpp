@@ -176,6 +176,15 @@ TEST(InitDeck, SaysWhatABudgetWouldHaveToCut) {
         EXPECT_GE(cut.cut_back, cut.end_arc - cut.arc);
         EXPECT_LE(cut.cut_back, 1.01 * (cut.end_arc - cut.arc));
     }
+    // What is cut already, of a vessel as it is then, comes on top.
+    InitSettings settings = settings_of(1e-5);
+    settings.oblique_ends = {{.name = "outlet_2", .angle = 0.4, .cut_back = 1 * mm, .why_not = {}}};
+    const InitPlan again = plan_case(y(), settings);
+    ASSERT_EQ(again.cuts.size(), poor.cuts.size());
+    for (std::size_t k = 0; k < poor.cuts.size(); ++k) {
+        const bool is_cut = y().openings[poor.cuts[k].opening].opening.name == "outlet_2";
+        EXPECT_NEAR(again.cuts[k].cut_back, poor.cuts[k].cut_back + (is_cut ? 1 * mm : 0), 0.1 * mm);
+    }
 }
 
 TEST(InitDeck, ProposesAStentThatFitsTheHealthyLumen) {
