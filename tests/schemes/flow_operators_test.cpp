@@ -261,7 +261,8 @@ TEST(OperatorsAtWalls, AShearBetweenPlatesIsExactUpToThem) {
     make_channel(flow, 12, across, true, OpenEnd::Kind::velocity, OpenEnd::Kind::velocity);
     flow.numerics.shift = 0;
     const double gap = across * dp, shear = 200;
-    for (OpenEnd& end : flow.ends) end.velocity = [=](const Vec3& x, double) { return Vec3{shear * x.y, 0, 0}; };
+    for (OpenEnd& end : flow.ends)
+        end.velocity = [=](double) { return [=](const Vec3& x) { return Vec3{shear * x.y, 0, 0}; }; };
     for (std::size_t i = 0; i < flow.fluid.size(); ++i)
         flow.fluid.velocity[i] = {shear * flow.fluid.position[i].y, 0, 0};
     for (std::size_t i = 0; i < flow.wall.size(); ++i)
@@ -299,7 +300,7 @@ double error_at_wall_of_thinning_blood(int across) {
     flow.blood.viscosity = mu(gap / 2);                          // the largest
     flow.blood.viscosity_at = [mu_0](double) { return mu_0; };   // for the next step, which is not taken
     for (OpenEnd& end : flow.ends)
-        end.velocity = [&](const Vec3& x, double) { return Vec3{velocity(from_wall(x.y)), 0, 0}; };
+        end.velocity = [&](double) { return [&](const Vec3& x) { return Vec3{velocity(from_wall(x.y)), 0, 0}; }; };
     for (std::size_t i = 0; i < flow.fluid.size(); ++i) {
         const double s = from_wall(flow.fluid.position[i].y);
         flow.fluid.velocity[i] = {velocity(s), 0, 0}, flow.fluid.viscosity[i] = mu(s);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "patency/base/parallel.h"
 
@@ -42,6 +43,32 @@ Vec3 velocity_inside(const FluidParticles& fluid, const OpenEnd& end, std::uint3
         velocity += w * (fluid.velocity[m.index] + gradient * d);
     }
     return sum > 0 ? velocity / sum : fluid.velocity[parent];
+}
+
+/// What a straight line y(x) through weighted points is found from.
+struct LineSums {
+    double w = 0, x = 0, xx = 0, y = 0, xy = 0;
+
+    LineSums operator+(const LineSums& o) const { return {w + o.w, x + o.x, xx + o.xx, y + o.y, xy + o.xy}; }
+    double slope() const {
+        const double det = w * xx - x * x;
+        return det > 0 ? (w * xy - x * y) / det : 0;
+    }
+    double value_at(double place) const { return w > 0 ? y / w + slope() * (place - x / w) : 0; }
+    /// Of the line that has this value at 0.
+    double slope_through(double value) const { return xx > 0 ? (xy - value * x) / xx : 0; }
+};
+
+template <class X, class Y>
+LineSums line_sums(std::span<const OpenEnd::Member> members, X x_of, Y y_of) {
+    return reduce(
+        members.size(), LineSums{},
+        [&](std::size_t k) -> LineSums {
+            const OpenEnd::Member& m = members[k];
+            const double w = m.weight, x = x_of(m), y = y_of(m);
+            return {w, w * x, w * x * x, w * y, w * x * y};
+        },
+        std::plus<>());
 }
 
 }   // namespace
@@ -85,15 +112,10 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
 }
 
 void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std::uint32_t)>& pressure) {
-    double w = 0, ws = 0, wss = 0, wp = 0, wsp = 0;
-    for (const auto& m : end.inside) {
-        const double p = pressure(m.index);
-        w += m.weight, ws += m.weight * m.s, wss += m.weight * m.s * m.s;
-        wp += m.weight * p, wsp += m.weight * m.s * p;
-    }
-    const double det = w * wss - ws * ws;
-    const double free_slope = det > 0 ? (w * wsp - ws * wp) / det : 0;
-    const double free_mean = w > 0 ? (wp - free_slope * ws) / w : 0;
+    const LineSums sums = line_sums(
+        end.inside, [](const OpenEnd::Member& m) { return m.s; },
+        [&](const OpenEnd::Member& m) { return pressure(m.index); });
+    const double free_slope = sums.slope(), free_mean = sums.value_at(0);
     if (end.kind == OpenEnd::Kind::velocity) {
         end.slope = free_slope;
         end.mean_pressure = free_mean;
@@ -103,21 +125,19 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
     const double answer = end.area / impedance;
     end.mean_pressure =
         (end.pressure + end.resistance * (end.flow + answer * free_mean)) / (1 + end.resistance * answer);
-    end.slope = wss > 0 ? (wsp - end.mean_pressure * ws) / wss : 0;
+    end.slope = sums.slope_through(end.mean_pressure);
 }
 
 double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
                        std::span<const OpenEnd::Member> members) {
-    double w = 0, wq = 0, wqq = 0, wv = 0, wqv = 0;
-    for (const auto& m : members) {
-        const Vec3 d = fluid.position[m.index] - section.centre;
-        const double q = dot(d, d) - m.s * m.s, v = dot(fluid.velocity[m.index], section.normal);
-        w += m.weight, wq += m.weight * q, wqq += m.weight * q * q;
-        wv += m.weight * v, wqv += m.weight * q * v;
-    }
-    const double det = w * wqq - wq * wq;
-    const double curvature = det > 0 ? (w * wqv - wq * wv) / det : 0;
-    return w > 0 ? section.area * (wv / w + curvature * (section.mean_square - wq / w)) : 0;
+    const LineSums sums = line_sums(
+        members,
+        [&](const OpenEnd::Member& m) {
+            const Vec3 d = fluid.position[m.index] - section.centre;
+            return dot(d, d) - m.s * m.s;
+        },
+        [&](const OpenEnd::Member& m) { return dot(fluid.velocity[m.index], section.normal); });
+    return section.area * sums.value_at(section.mean_square);
 }
 
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share) {

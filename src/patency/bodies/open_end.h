@@ -14,6 +14,9 @@
 
 namespace patency {
 
+/// The velocity at a place of a section [m/s]; many threads may ask.
+using SectionVelocity = std::function<Vec3(const Vec3& x)>;
+
 struct OpenEnd {
     enum class Kind { velocity, pressure };
 
@@ -26,8 +29,8 @@ struct OpenEnd {
     double buffer_length = 0;   ///< [m]
     bool undisturbed = false;   ///< keep every velocity along the axis in the buffer
 
-    /// Velocity end: what is imposed at position x and time t [m/s].
-    std::function<Vec3(const Vec3& x, double t)> velocity;
+    /// Velocity end: what is imposed over the section at time t.
+    std::function<SectionVelocity(double t)> velocity;
     /// And the flow that this carries out of the domain [m^3/s]; if empty, the particles' is taken for it.
     std::function<double(double t)> imposed_flow;
     SoundAbsorber absorber{};   ///< what it lets out is added to an imposed flow, in the imposed velocity's profile

@@ -99,8 +99,7 @@ std::vector<CellEnd> CellMarch::ends_at(double time) {
         now.rest = inwards(&DevelopedFlow::rest);
         if (end.kind == OpenEnd::Kind::velocity) {
             now.flow = end.imposed_flow(time);
-            if (marched.kind == CellEnd::Kind::velocity)
-                now.rest = [&end, time](const Vec3& x) { return end.velocity(x, time); };
+            if (marched.kind == CellEnd::Kind::velocity) now.rest = end.velocity(time);
         }
         ends.push_back(std::move(now));
     }

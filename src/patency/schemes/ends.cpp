@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "patency/base/parallel.h"
+
 namespace patency {
 
 void measure_flows(const FlowDomain& domain, const FlowNumerics& numerics, double time, double dt) {
@@ -17,13 +19,14 @@ void impose_pressure(const FlowDomain& domain, const FluidMaterial& material, Al
     for (OpenEnd& end : domain.ends) {
         fit_pressure(end, material.density * material.sound_speed,
                      [&](std::uint32_t i) { return double(records[i].d); });
-        for (const auto& m : end.buffer) {
+        for_each_index(end.buffer.size(), [&](std::size_t k) {
+            const OpenEnd::Member& m = end.buffer[k];
             double& p = fluid.pressure[m.index];
             const double wanted = end.mean_pressure + end.slope * m.s, predicted = double(records[m.index].d);
             records[m.index].d = T(predicted + m.weight * (wanted - predicted));
             p += m.weight * (wanted - p);
             fluid.pressure_rate[m.index] *= 1 - m.weight;
-        }
+        });
     }
 }
 
@@ -31,15 +34,18 @@ template <class T>
 void impose_velocity(const FlowDomain& domain, double time, AlignedVector<Quad<T>>& records) {
     FluidParticles& fluid = domain.fluid;
     for (OpenEnd& end : domain.ends) {
-        const double share = end.share(time);
-        for (const auto& m : end.buffer) {
-            Vec3& v = fluid.velocity[m.index];
-            if (end.kind == OpenEnd::Kind::velocity)
-                v = share * end.velocity(fluid.position[m.index], time);
+        const bool is_imposed = end.kind == OpenEnd::Kind::velocity;
+        const double share = is_imposed ? end.share(time) : 1;
+        const SectionVelocity imposed = is_imposed ? end.velocity(time) : SectionVelocity();
+        for_each_index(end.buffer.size(), [&](std::size_t k) {
+            const std::uint32_t i = end.buffer[k].index;
+            Vec3& v = fluid.velocity[i];
+            if (is_imposed)
+                v = share * imposed(fluid.position[i]);
             else if (end.undisturbed || dot(v, end.normal) < 0)
                 v = dot(v, end.normal) * end.normal;
-            records[m.index] = vector_record(v, records[m.index].d);
-        }
+            records[i] = vector_record(v, records[i].d);
+        });
     }
 }
 

@@ -43,9 +43,7 @@ CellEnd make_end(const Opening& opening, const deck::Opening& said, const EndLaw
         // Blood that is drawn out finds its own profile.
         end.kind = end.flow > 0 ? CellEnd::Kind::flow : CellEnd::Kind::velocity;
         if (end.kind == CellEnd::Kind::velocity)
-            end.velocity = [imposed = make_end_velocity(opening, said, law, blood)](const Vec3& x) {
-                return imposed(x, steady_time);
-            };
+            end.velocity = make_end_velocity(opening, said, law, blood)(steady_time);
         return end;
     }
     if (!law.outlet) {

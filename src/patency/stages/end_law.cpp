@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "patency/base/errors.h"
@@ -156,8 +155,8 @@ EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const dec
     }
 }
 
-std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
-                                                           const EndLaw& law, const deck::Blood& blood) {
+std::function<SectionVelocity(double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
+                                                         const EndLaw& law, const deck::Blood& blood) {
     const Section section = opening.planar ? Section::planar : Section::circular;
     const double area = opening.area, radius = opening.radius;
     const Vec3 inwards = -opening.normal;
@@ -167,17 +166,21 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
     const auto mean_speed = [signal = law.signal, area](double time) { return signal(time) / area; };
     switch (said.profile) {
         case deck::VelocityProfile::plug:
-            return [=](const Vec3&, double time) {
-                return mean_speed(time) * inwards;
-            };   // beside a wall too: a plug slips
+            return [=](double time) -> SectionVelocity {
+                return [u = mean_speed(time) * inwards](const Vec3&) { return u; };   // beside a wall too: a plug slips
+            };
         case deck::VelocityProfile::parabola:
-            return [=](const Vec3& x, double time) {
-                return mean_speed(time) * parabola_profile(section, place(x)) * inwards;
+            return [=](double time) -> SectionVelocity {
+                return [=, mean = mean_speed(time)](const Vec3& x) {
+                    return mean * parabola_profile(section, place(x)) * inwards;
+                };
             };
         case deck::VelocityProfile::table: {
             const double mean = mean_of_table(*said.profile_table, section);
-            return [=, table = *said.profile_table](const Vec3& x, double time) {
-                return mean_speed(time) / mean * value_of_table(table, place(x)) * inwards;
+            return [=, table = *said.profile_table](double time) -> SectionVelocity {
+                return [=, scale = mean_speed(time) / mean](const Vec3& x) {
+                    return scale * value_of_table(table, place(x)) * inwards;
+                };
             };
         }
         case deck::VelocityProfile::developed_startup: {
@@ -185,25 +188,23 @@ std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& openin
                 throw DeckError(
                     fmt::format("openings.{}.profile: developed_startup is known between plates only", opening.name));
             const double rate = startup_rate(opening, blood), to_peak = law.peak_to_mean;
-            return [=](const Vec3& x, double time) {
-                const double s = std::min(place(x), 1.0);
-                return mean_speed(time) * to_peak * startup_profile(s, rate * time) * inwards;
+            return [=](double time) -> SectionVelocity {
+                return [=, peak = mean_speed(time) * to_peak](const Vec3& x) {
+                    return peak * startup_profile(std::min(place(x), 1.0), rate * time) * inwards;
+                };
             };
         }
         case deck::VelocityProfile::womersley: break;
     }
     if (blood.law != deck::BloodLaw::newtonian)
         throw DeckError(fmt::format("openings.{}.profile: womersley is known for Newtonian blood only", opening.name));
-    struct Instant {
-        double time = NAN;
-        ProfileSnapshot snapshot;
-    };
     const WomersleyProfile profile(section, radius, blood.density, blood.viscosity,
                                    make_fourier_series(law.signal.waveform, womersley_modes));
-    return [=, ramp = law.signal.ramp, last = std::make_shared<Instant>()](const Vec3& x, double time) {
-        if (last->time != time) *last = {time, profile.at(time)};
+    return [=, ramp = law.signal.ramp](double time) -> SectionVelocity {
         const double rise = ramp > 0 ? smooth_ramp(time, ramp) : 1.0;
-        return rise * last->snapshot(std::min(place(x), 1.0)) * inwards;
+        return [=, snapshot = profile.at(time)](const Vec3& x) {
+            return rise * snapshot(std::min(place(x), 1.0)) * inwards;
+        };
     };
 }
 

@@ -49,10 +49,9 @@ bool is_driven_by_pulse(const deck::Case& config);
 /// The law of an opening. Files of waveforms are read here: throws FileError or DeckError naming the opening.
 EndLaw make_end_law(const Opening& opening, const deck::Opening& said, const deck::Case& config);
 
-/// Velocity [m/s] at x and a time, for an end that prescribes its flow. The function keeps a table of the last instant:
-/// one thread at a time.
-std::function<Vec3(const Vec3&, double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
-                                                           const EndLaw& law, const deck::Blood& blood);
+/// What an end that prescribes its flow imposes over its section at a time.
+std::function<SectionVelocity(double)> make_end_velocity(const Opening& opening, const deck::Opening& said,
+                                                         const EndLaw& law, const deck::Blood& blood);
 
 /// The flow into the domain [m^3/s] that this velocity carries through the opening at a time: the signal's, but less in a start
 /// from rest, and of a Womersley profile that of its modes.

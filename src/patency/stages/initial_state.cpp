@@ -44,8 +44,7 @@ double stream_radius(const StraightAxis& axis, double axial) {
 /// Velocity of the flow that a waveform drives: its profile at time zero.
 VectorField womersley_field(const Scene& scene) {
     for (std::size_t k = 0; k < scene.ends.size(); ++k)
-        if (scene.ends[k].velocity)
-            return [velocity = scene.ends[k].velocity](const Vec3& x) { return velocity(x, 0); };
+        if (scene.ends[k].velocity) return scene.ends[k].velocity(0);
     const StraightAxis axis = axis_for(scene, "initial.velocity: womersley");
     if (scene.laws.size() != 2) throw DeckError("initial.velocity: womersley needs a waveform at an opening");
     // Between two pressures: the flow of their difference, one period long.

@@ -109,8 +109,10 @@ int main(int argc, char** argv) {
         end.area = 3.14159265358979 * radius * radius, end.reach = 1.5 * radius, end.buffer_length = buffer_length;
     ends[0].kind = OpenEnd::Kind::velocity;
     ends[0].normal = {-1, 0, 0};
-    ends[0].velocity = [](const Vec3& x, double t) {
-        return Vec3{(0.25 + 5 * t) * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0};
+    ends[0].velocity = [](double t) {
+        return [t](const Vec3& x) {
+            return Vec3{(0.25 + 5 * t) * (1 - (x.y * x.y + x.z * x.z) / (radius * radius)), 0, 0};
+        };
     };
     ends[1].kind = OpenEnd::Kind::pressure;
     ends[1].centre = {length, 0, 0}, ends[1].normal = {1, 0, 0};
