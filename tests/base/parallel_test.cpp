@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "patency/base/aligned.h"
@@ -31,6 +32,53 @@ TEST_F(Threads, EveryIndexIsVisitedOnce) {
             for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(visits[i], 1) << i << " of " << count;
         }
     }
+}
+
+TEST_F(Threads, EveryTaskIsTakenOnce) {
+    for (int threads = 1; threads <= 4; ++threads)
+        for (const int there : {1, threads})   // a region may get fewer than were asked for
+            for (const std::size_t count : {0, 1, 3, 257}) {
+                omp_set_num_threads(threads);
+                std::vector<std::atomic<int>> taken(count);
+                Shares shares(count);
+#pragma omp parallel num_threads(there)
+                for (const std::size_t task : shares.of_this_thread()) ++taken[task];
+                for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(taken[i], 1) << i << " of " << count;
+            }
+}
+
+TEST_F(Threads, BeginWithTheirOwnPart) {
+    constexpr int threads = 4;
+    omp_set_num_threads(threads);
+    std::vector<std::size_t> first(threads, 999);
+    Shares shares(400);
+#pragma omp parallel
+    {
+        bool is_first = true;
+        for (const std::size_t task : shares.of_this_thread()) {
+            if (!is_first) continue;
+            first[std::size_t(omp_get_thread_num())] = task;
+            is_first = false;
+#pragma omp barrier
+        }
+    }
+    EXPECT_EQ(first, (std::vector<std::size_t>{0, 100, 200, 300}));
+}
+
+TEST_F(Threads, TakeWhatAnotherOneHasNotBegun) {
+    omp_set_num_threads(2);
+    constexpr std::size_t count = 100;
+    std::atomic<std::size_t> done = 0;
+    Shares shares(count);
+    const double begin = omp_get_wtime();
+#pragma omp parallel
+    for (const std::size_t task : shares.of_this_thread()) {
+        if (task == 0)   // this one's thread is held up until all others are done
+            while (done < count - 1 && omp_get_wtime() - begin < 10) std::this_thread::yield();
+        ++done;
+    }
+    EXPECT_EQ(done, count);
+    EXPECT_LT(omp_get_wtime() - begin, 10);
 }
 
 TEST_F(Threads, SumsHaveTheSameBits) {

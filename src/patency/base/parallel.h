@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <vector>
@@ -14,6 +15,54 @@ namespace patency {
 inline constexpr std::size_t block_size =
     1024;   // particles per task: small enough to balance, large enough to be cheap
 
+/// Hands out the tasks 0..count-1 of a loop to the threads of a parallel region: to each of them its own part first, in every loop over
+/// the same blocks the same one, so that it finds what it wrote before in its own caches; then what others have not begun.
+/// In a region: for (const std::size_t task : shares.of_this_thread()) ...
+class Shares {
+public:
+    explicit Shares(std::size_t count) : parts_(std::size_t(omp_get_max_threads())) {
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            parts_[k].next = count * k / parts_.size();
+            parts_[k].end = count * (k + 1) / parts_.size();
+        }
+    }
+
+    struct End {};
+    class Walk {
+    public:
+        Walk(Shares& shares, std::size_t own) : shares_(shares), own_(own) { ++*this; }
+        std::size_t operator*() const { return task_; }
+        bool operator!=(End) const { return helped_ < shares_.parts_.size(); }
+        Walk& operator++() {
+            for (; helped_ < shares_.parts_.size(); ++helped_)
+                if (shares_.parts_[(own_ + helped_) % shares_.parts_.size()].take(task_)) break;
+            return *this;
+        }
+
+    private:
+        Shares& shares_;
+        std::size_t own_, helped_ = 0, task_ = 0;   // helped_: how many parts, the own one first, are all taken
+    };
+    struct Range {
+        Shares& shares;
+        Walk begin() const { return {shares, std::size_t(omp_get_thread_num())}; }
+        End end() const { return {}; }
+    };
+    Range of_this_thread() { return {*this}; }
+
+private:
+    struct alignas(64) Part {
+        std::atomic<std::size_t> next{0};
+        std::size_t end = 0;
+
+        bool take(std::size_t& task) {
+            if (next.load(std::memory_order_relaxed) >= end) return false;
+            return (task = next.fetch_add(1, std::memory_order_relaxed)) < end;
+        }
+    };
+    std::vector<Part> parts_;
+};
+
 /// body(begin, end) for consecutive blocks of [0, count). Blocks may run in any order and on any thread.
 template <class Body>
 void for_each_block(std::size_t count, Body body) {
@@ -22,8 +71,9 @@ void for_each_block(std::size_t count, Body body) {
         if (count) body(std::size_t(0), count);
         return;
     }
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t b = 0; b < blocks; ++b) body(b * block_size, std::min(count, (b + 1) * block_size));
+    Shares shares(blocks);
+#pragma omp parallel
+    for (const std::size_t b : shares.of_this_thread()) body(b * block_size, std::min(count, (b + 1) * block_size));
 }
 
 /// body(i) for every i in [0, count), each of them much work; no body may touch what another one writes, nor throw.

@@ -24,6 +24,7 @@
 
 #include "patency/base/aligned.h"
 #include "patency/base/pack.h"
+#include "patency/base/parallel.h"
 #include "patency/base/vec.h"
 #include "patency/pairs/sum_over_neighbours.h"
 
@@ -199,8 +200,9 @@ private:
         constexpr bool is_packed = !std::is_same_v<P, T>;
         constexpr std::size_t at_once = is_packed ? lanes : 1, groups_per_task = particles_per_run / lanes;
         const std::size_t groups = start_.size() - 1, tasks = (groups + groups_per_task - 1) / groups_per_task;
-#pragma omp parallel for schedule(dynamic, 1)
-        for (std::size_t task = 0; task < tasks; ++task) {
+        Shares shares(tasks);
+#pragma omp parallel
+        for (const std::size_t task : shares.of_this_thread()) {
             for (std::size_t g = task * groups_per_task; g < std::min(groups, (task + 1) * groups_per_task); ++g) {
                 for (std::size_t lane = 0; lane < lanes && g * lanes + lane < count_; lane += at_once) {
                     alignas(64) std::uint32_t members[lanes];

@@ -17,6 +17,7 @@
 
 #include "patency/base/aligned.h"
 #include "patency/base/pack.h"
+#include "patency/base/parallel.h"
 #include "patency/base/vec.h"
 #include "patency/search/neighbours.h"
 
@@ -83,11 +84,11 @@ void sum_packed(const Neighbours& rows, T inverse_support, const Records<T, Term
                 const Records<T, Term::extras>& other, const Term& term, const Finish& finish) {
     using P = Pack<T, W>;
     constexpr std::size_t sums = std::size_t(Term::sums);
+    Shares shares(rows.block_count());
 #pragma omp parallel
     {
         AlignedVector<T> results;   // of a block, by groups, sums and lanes
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t b = 0; b < rows.block_count(); ++b) {
+        for (const std::size_t b : shares.of_this_thread()) {
             const Neighbours::Block& block = rows.block(b);
             const std::size_t groups = block.group_start.size() - 1;
             results.reset(groups * sums * W);
@@ -141,8 +142,9 @@ void sum_one_by_one(const Neighbours& rows, const PairScale& scale, const Record
         for (std::size_t e = 1; e < n; ++e) sample.extra[e - 1] = quads_of(records[e][index]);
         return sample;
     };
-#pragma omp parallel for schedule(dynamic, 1)
-    for (std::size_t b = 0; b < rows.block_count(); ++b) {
+    Shares shares(rows.block_count());
+#pragma omp parallel
+    for (const std::size_t b : shares.of_this_thread()) {
         const Neighbours::Block& block = rows.block(b);
         for (std::size_t m = 0; m < block.member_count; ++m) {
             const std::size_t g = m / lanes;

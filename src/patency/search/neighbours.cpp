@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "patency/base/pack.h"
+#include "patency/base/parallel.h"
 #include "patency/base/select.h"
 
 namespace patency {
@@ -209,6 +210,7 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
     if (blocks_.size() < block_count_) blocks_.resize(block_count_);
     const float reach_quanta = float(reach / frame.quantum()) * reach_margin, reach2 = reach_quanta * reach_quanta;
     const std::int64_t reach_integer = std::int64_t(reach_quanta) + 1;
+    Shares shares(block_count_);
 #pragma omp parallel
     {
         Candidates candidates;
@@ -216,8 +218,7 @@ void Neighbours::find(const Frame& frame, const Cells& own, const Cells& other, 
         OpenGroup group;
         group.rows.resize(std::size_t(lanes));
         group.lengths.resize(std::size_t(lanes));
-#pragma omp for schedule(dynamic, 1)
-        for (std::size_t b = 0; b < block_count_; ++b) {
+        for (const std::size_t b : shares.of_this_thread()) {
             Block block =
                 std::move(blocks_[b]);   // with its storage; aside, because blocks of other threads are close by
             block.members.clear();
