@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arguments in, exit code out. Commands stand in files of their own (commands.h).
 #include <fmt/format.h>
+#include <omp.h>
+#include <sched.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -8,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <vector>
 
 #include "command_line.h"
 #include "commands.h"
@@ -51,12 +54,26 @@ int run(int argc, char** argv) {
     return int(exit_code);
 }
 
+/// Where OMP_PROC_BIND or OMP_PLACES is set, libgomp has bound this thread to its own core by now, and a program that it starts would
+/// know no other: it gets all the cores of all places back.
+void leave_own_place() {
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    for (int place = 0; place < omp_get_num_places(); ++place) {
+        std::vector<int> ids(std::size_t(omp_get_place_num_procs(place)));
+        omp_get_place_proc_ids(place, ids.data());
+        for (const int id : ids) CPU_SET(std::size_t(id), &cores);
+    }
+    if (CPU_COUNT(&cores) > 0) ::sched_setaffinity(0, sizeof cores, &cores);
+}
+
 /// OpenMP's threads spin for milliseconds while they wait, which on a shared machine takes the time of those that work; but to
 /// sleep and wake takes longer than the short loops of coarse levels. These spin some ten microseconds, then sleep. libgomp reads
 /// its choices before main, so the program starts itself again with them, unless the user has made one.
 void let_threads_sleep(char** argv) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
     ::setenv("GOMP_SPINCOUNT", "1000", 1);
+    leave_own_place();
     ::execv("/proc/self/exe", argv);   // returns only if it fails: then they spin
 }
 

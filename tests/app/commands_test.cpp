@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include "patency/io/surface_file.h"
 #include "tests/app/program.h"
@@ -48,6 +50,17 @@ TEST_F(Commands, version_and_schema_answer) {
     const Result schema = patency("schema");
     EXPECT_EQ(schema.exit_code, 0);
     EXPECT_NE(schema.output.find("\"$schema\""), std::string::npos);
+}
+
+TEST_F(Commands, bound_threads_keep_all_cores) {
+    // The program starts itself again; libgomp prints its places in both.
+    const std::string output =
+        run_command(fmt::format("OMP_PROC_BIND=true OMP_DISPLAY_ENV=true '{}' version", PATENCY_BINARY)).output;
+    std::vector<std::string> places;
+    for (std::size_t at = output.find("OMP_PLACES"); at != std::string::npos; at = output.find("OMP_PLACES", at + 1))
+        places.push_back(output.substr(at, output.find('\n', at) - at));
+    ASSERT_EQ(places.size(), 2u) << output;
+    EXPECT_EQ(places[0], places[1]);
 }
 
 TEST_F(Commands, a_wrong_command_line_is_2) {
