@@ -112,11 +112,11 @@ std::unique_ptr<Scene> make_pipe(const Setup& setup) {
 }
 
 struct Measured {
-    double particle_steps = 0, cpu_s = 0, wall_s = 0;
+    double particle_steps = 0, cpu_s = 0;
     std::int64_t particles = 0;
+    std::vector<double> rates;   // particle-steps per second of every round
 
     double per_cpu_s() const { return particle_steps / cpu_s; }
-    double per_s() const { return particle_steps / wall_s; }
 };
 
 /// A pipe that steps when it is its turn.
@@ -136,12 +136,15 @@ void advance(Runner& runner, int steps) {
     omp_set_num_threads(runner.threads);
     const double cpu = cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
+    double done = 0;
     for (int k = 0; k < steps; ++k) {
         const double count = double(runner.scene->fluid.size());
-        runner.measured.particle_steps += count * double(step(*runner.scene));
+        done += count * double(step(*runner.scene));
     }
-    runner.measured.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    runner.measured.cpu_s += cpu_seconds() - cpu;
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    Measured& all = runner.measured;
+    all.particle_steps += done, all.cpu_s += cpu_seconds() - cpu;
+    all.rates.push_back(done / wall);
 }
 
 /// Both under the clock for all their steps, in rounds by turns: a machine that others slow down for a while slows both.
@@ -194,17 +197,28 @@ BenchResult bench_against_reference(const std::string& name, Setup setup, const 
             answer_error(*packed.scene, *slow.scene)};
 }
 
-BenchResult bench_two_threads(const std::string& name, const Setup& setup, const BenchRequest& request) {
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The median of what neighbouring turns give: for a while others may take one core of two, and that halves what two
+/// threads do together but not what one does alone.
+BenchResult bench_two_threads(const std::string& name, const Setup& setup, BenchRequest request) {
+    request.effort *= 2;   // rounds of one step each, enough of them for a median
     Runner alone = make_runner(setup, 1, request), together = make_runner(setup, 2, request);
     measure_by_turns(alone, together);
-    const Measured &one = alone.measured, &two = together.measured;
+    const std::vector<double>&one = alone.measured.rates, &two = together.measured.rates;
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < one.size(); ++k) ratios.push_back(two[k] / one[k]);
     return {name,
-            two.particles,
+            together.measured.particles,
             2,
-            two.per_s(),
+            median(two),
             "particle-steps per second",
-            one.per_s(),
-            two.per_s() / one.per_s(),
+            median(one),
+            median(ratios),
             answer_error(*together.scene, *alone.scene)};
 }
 

@@ -28,8 +28,8 @@ struct BenchRequest {
 };
 
 /// pipe_d16 (the size of the predecessor's 3d_mixed_poiseuille_flow) and pipe_d32 (200,000 particles), each in mixed and
-/// double precision, against the reference loop; two_threads_*: rate per second of two threads over that of one;
-/// growth_*: CPU time per particle-step with 1,000,000 particles over that with 100,000.
+/// double precision, against the reference loop; two_threads_*: rate per second of two threads over that of one,
+/// the medians of turns and of their ratios; growth_*: CPU time per particle-step with 1,000,000 particles over that with 100,000.
 /// @throws UsageError if no name fits.
 std::vector<BenchResult> run_flow_bench(const BenchRequest& request);
 
