@@ -326,7 +326,7 @@ TEST(CellSolver, isTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(found[0].velocity, found[2].velocity);
 }
 
-// From noise, by steps that are too long for it: where they lead away the next one is shorter, and where they are lost it is back to the best.
+// From noise, by steps that are too long for it: where they lead away the next one is shorter.
 TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
     const auto finds_back = [](double noise, std::uint32_t dice) {
         Pipe pipe(6, 0.3);
@@ -350,12 +350,12 @@ TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
             return false;
         }
     };
-    // One seed tells nothing. With steps that are never shorter 11 and 9 of 20 come back, without a way to the best 20 and 16.
+    // One seed tells nothing. Of 100 come back 99 from noise and 86 from ten times as much, with steps that are never shorter 64 and 68.
     int from_noise = 0, from_more = 0;
-    for (std::uint32_t seed = 1; seed <= 20; ++seed)
+    for (std::uint32_t seed = 1; seed <= 40; ++seed)
         from_noise += finds_back(1, seed), from_more += finds_back(10, seed);
-    EXPECT_EQ(from_noise, 20);
-    EXPECT_GE(from_more, 18);
+    EXPECT_GE(from_noise, 37);
+    EXPECT_GE(from_more, 31);
 }
 
 TEST(CellSolver, saysWhenItDoesNotConverge) {
@@ -406,19 +406,43 @@ TEST(CellSolver, startsNearerFromACoarserFlow) {
     EXPECT_LT(quick.linear_steps, 0.9 * slow.linear_steps);
 }
 
-/// Steps of GMRES from rest to a hundredth, with a step as long as near the answer.
+/// As at rest, with a step as long as near the answer.
+CellVectors fill_from_rest(CellBalance& balance, CellMatrix& matrix) {
+    CellVectors right;
+    balance.compute_residual(0.5);
+    balance.fill({1000, 1e-5}, matrix, right);
+    return right;
+}
+
+/// Steps of GMRES to a hundredth.
 int linear_steps(const Pipe& pipe) {
     CellBalance balance = pipe.balance();
     CellMatrix matrix(pipe.mesh);
-    CellVectors right, change;
-    balance.compute_residual(0.5);
-    balance.fill({1000, 1e-5}, matrix, right);
-    const CellOperator multiply = [&](const CellVectors& x, CellVectors& y) {
-        matrix.multiply(x, y);
-        balance.add_openings(x, y);
+    CellVectors change;
+    const CellVectors right = fill_from_rest(balance, matrix);
+    const PreconditionedOperator apply = [&](const CellVectors& v, CellVectors& z, CellVectors& w) {
+        matrix.precondition(v, z, w);
+        balance.add_openings(z, w);
     };
-    const CellOperator precondition = [&](const CellVectors& x, CellVectors& y) { matrix.precondition(x, y); };
-    return solve_by_krylov(multiply, precondition, right, change, 60, 1e-2).steps;
+    return solve_by_krylov(apply, right, change, 60, 1e-2).steps;
+}
+
+TEST(CellMatrix, knowsItsProductFromTheLastSweep) {
+    const Pipe pipe(12);
+    CellBalance balance = pipe.balance();
+    CellMatrix matrix(pipe.mesh);
+    const CellVectors right = fill_from_rest(balance, matrix);
+    CellVectors x(right.size()), told(right.size()), multiplied(right.size());
+    matrix.precondition(right, x, told);
+    matrix.multiply(x, multiplied);
+    for (int k = 0; k < 4; ++k) {
+        float largest = 0, apart = 0;
+        for (std::size_t i = 0; i < right.size(); ++i)
+            largest = std::max(largest, std::abs(multiplied[i][k])),
+            apart = std::max(apart, std::abs(told[i][k] - multiplied[i][k]));
+        EXPECT_GT(largest, 0);
+        EXPECT_LT(apart, 1e-4f * largest);
+    }
 }
 
 // Sums of entries alone are too stiff on coarser levels, and the more of them there are the more steps it would take. THEORY.md (18.13)
@@ -427,16 +451,17 @@ TEST(CellMatrix, needsHardlyMoreStepsForManyCells) { EXPECT_LE(linear_steps(Pipe
 TEST(CellKrylov, solvesWhatItIsGiven) {
     // A lower triangle with a diagonal that grows, preconditioned by the diagonal.
     const std::size_t count = 40;
-    const CellOperator multiply = [](const CellVectors& x, CellVectors& y) {
+    const auto multiply = [](const CellVectors& x, CellVectors& y) {
         for (std::size_t i = 0; i < x.size(); ++i) y[i] = float(i + 1) * x[i] + (i > 0 ? x[i - 1] : CellVector{});
     };
-    const CellOperator divide = [](const CellVectors& x, CellVectors& y) {
-        for (std::size_t i = 0; i < x.size(); ++i) y[i] = x[i] / float(i + 1);
+    const PreconditionedOperator apply = [&](const CellVectors& v, CellVectors& z, CellVectors& w) {
+        for (std::size_t i = 0; i < v.size(); ++i) z[i] = v[i] / float(i + 1);
+        multiply(z, w);
     };
     CellVectors wanted(count), right(count), found;
     for (std::size_t i = 0; i < count; ++i) wanted[i] = CellVector{float(i), 1, -2, 0.5f * float(i)};
     multiply(wanted, right);
-    const KrylovResult result = solve_by_krylov(multiply, divide, right, found, 60, 1e-6);
+    const KrylovResult result = solve_by_krylov(apply, right, found, 60, 1e-6);
     EXPECT_LT(result.residual, 1e-6);
     for (std::size_t i = 0; i < count; ++i)
         for (int k = 0; k < 4; ++k) ASSERT_NEAR(found[i][k], wanted[i][k], 2e-3f);

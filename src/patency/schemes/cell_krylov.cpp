@@ -21,8 +21,8 @@ void scale(double factor, CellVectors& a) {
 
 }   // namespace
 
-KrylovResult solve_by_krylov(const CellOperator& multiply, const CellOperator& precondition, const CellVectors& right,
-                             CellVectors& x, int most, double tolerance) {
+KrylovResult solve_by_krylov(const PreconditionedOperator& apply, const CellVectors& right, CellVectors& x, int most,
+                             double tolerance) {
     const double length = std::sqrt(product(right, right));
     x.assign(right.size(), CellVector{});
     if (!(length > 0)) return {0, 0};
@@ -33,8 +33,7 @@ KrylovResult solve_by_krylov(const CellOperator& multiply, const CellOperator& p
     int k = 0;
     while (k < most) {
         CellVectors z(right.size()), w(right.size());
-        precondition(basis[std::size_t(k)], z);
-        multiply(z, w);
+        apply(basis[std::size_t(k)], z, w);
         search.push_back(std::move(z));
         std::vector<double> h;
         for (const CellVectors& v : basis) {

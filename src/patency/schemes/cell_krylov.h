@@ -8,7 +8,8 @@
 
 namespace patency {
 
-using CellOperator = std::function<void(const CellVectors& x, CellVectors& y)>;   // y = operator x
+/// z = about A^-1 v, and w = A z: preconditioners know parts of that from their last sweep.
+using PreconditionedOperator = std::function<void(const CellVectors& v, CellVectors& z, CellVectors& w)>;
 
 struct KrylovResult {
     double residual;   ///< |right - A x| over |right|
@@ -17,7 +18,7 @@ struct KrylovResult {
 
 /// x = about A^-1 right, from zero, in at most `most` steps or until the residual is below tolerance. Sums are in double
 /// and in fixed blocks: the same bits for any number of threads.
-KrylovResult solve_by_krylov(const CellOperator& multiply, const CellOperator& precondition, const CellVectors& right,
-                             CellVectors& x, int most, double tolerance);
+KrylovResult solve_by_krylov(const PreconditionedOperator& apply, const CellVectors& right, CellVectors& x, int most,
+                             double tolerance);
 
 }   // namespace patency

@@ -106,7 +106,7 @@ CellLevel make_level(const Graph& graph) {
     CellLevel level;
     const std::size_t rows = graph.size();
     level.diagonal.resize(rows);
-    level.x.resize(rows), level.b.resize(rows), level.r.resize(rows);
+    for (CellVectors* vectors : {&level.x, &level.b, &level.r, &level.change}) vectors->resize(rows);
     colour_runs(graph, level);
     level.earlier.start.assign(1, 0), level.later.start.assign(1, 0);
     for (std::uint32_t i = 0; i < rows; ++i) {
@@ -230,11 +230,21 @@ void sweep_there(CellLevel& level) {
 void sweep_back(CellLevel& level) {
     for (auto runs = level.colours.rbegin(); runs != level.colours.rend(); ++runs)
         for_each_run(level, *runs, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = end; i-- > begin;)
+            for (std::size_t i = end; i-- > begin;) {
+                const CellVector before = level.x[i];
                 relax_row(
                     level, i,
                     RowSum().add_back(level.earlier.row(i), level.x).add_back(level.later.row(i), level.x).value());
+                level.change[i] = level.x[i] - before;
+            }
         });
+}
+
+/// The matrix times x after a sweep back: it left every row solved but for what the neighbours that it came to later have changed.
+void compute_product_of_sweep(const CellLevel& level, CellVectors& product) {
+    for_each_index(level.size(), [&](std::size_t i) {
+        product[i] = level.b[i] + RowSum().add(level.earlier.row(i), level.change).value();
+    });
 }
 
 }   // namespace
@@ -319,11 +329,12 @@ void CellMatrix::multiply(const CellVectors& x, CellVectors& y) const {
     for_each_index(level.size(), [&](std::size_t i) { y[i] = row_times(level, x, i); });
 }
 
-void CellMatrix::precondition(const CellVectors& b, CellVectors& x) {
+void CellMatrix::precondition(const CellVectors& b, CellVectors& x, CellVectors& product) {
     CellLevel& level = levels_.front();
     level.b = b;
     cycle(0);
     x = level.x;
+    compute_product_of_sweep(level, product);
 }
 
 void CellMatrix::cycle(std::size_t n) {
@@ -355,8 +366,8 @@ void CellMatrix::solve_coarse(std::size_t n) {
     cycle(n);
     if (n + 1 == levels_.size()) return;   // swept until it is solved
     CellVectors &first = level.first, &answer = level.answer;
+    compute_product_of_sweep(level, answer);
     first.swap(level.x);
-    for_each_index(level.size(), [&](std::size_t i) { answer[i] = row_times(level, first, i); });
     const double square = product(answer, answer), before = product(level.b, level.b);
     if (!(square > 0)) return level.x.swap(first);
     const double share = product(answer, level.b) / square;
@@ -368,7 +379,7 @@ void CellMatrix::solve_coarse(std::size_t n) {
     }
     cycle(n);
     CellVectors& second_answer = level.r;
-    for_each_index(level.size(), [&](std::size_t i) { second_answer[i] = row_times(level, level.x, i); });
+    compute_product_of_sweep(level, second_answer);
     // The second one orthogonal to the first.
     const double along = product(second_answer, answer) / square;
     const double rest = product(second_answer, second_answer) - along * along * square;

@@ -60,6 +60,7 @@ struct CellLevel {
     std::vector<std::uint32_t> colour;                 // per run
     std::vector<std::vector<std::uint32_t>> colours;   // runs of each
     CellVectors x, b, r;
+    CellVectors change;          // of x in the last sweep back
     CellVectors first, answer;   // of a coarser level's first cycle: what it found, and the matrix times that
 
     std::size_t size() const { return diagonal.size(); }
@@ -95,8 +96,8 @@ public:
     void make_coarse();
 
     void multiply(const CellVectors& x, CellVectors& y) const;
-    /// One cycle from zero: x is about the inverse times b.
-    void precondition(const CellVectors& b, CellVectors& x);
+    /// One cycle from zero: x is about the inverse times b, and `product` is the matrix times x, which costs half of multiply here.
+    void precondition(const CellVectors& b, CellVectors& x, CellVectors& product);
 
     std::size_t level_count() const { return levels_.size(); }
 
