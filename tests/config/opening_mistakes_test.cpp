@@ -128,6 +128,10 @@ TEST(Mistakes, OpeningsThatTheLumenDoesNotHave) {
                   .find("13:3: openings.outlet: the lumen has no such opening. "
                         "Did you mean \"outlet_1\"?"),
               std::string::npos);
+    EXPECT_NE(with("surface: t.stl\n  unit: mm", "outlet_9")
+                  .find("13:3: openings.outlet_9: the lumen has no such opening. "
+                        "Did you mean \"outlet_1\"?"),
+              std::string::npos);
 }
 
 TEST(Mistakes, OpeningNameThatIsNoName) {

@@ -13,15 +13,14 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// As surfaces call their openings, or as the deck does.
+/// As surfaces call their openings, whose outlets are counted from one on, or as the deck does.
 bool is_usual_name(const Case& c, const std::string& name) {
     if (name == "inlet") return true;
     for (const auto& [found, own] : c.geometry.names)
         if (own == name) return true;
-    constexpr std::string_view usual = "outlet_";
-    return name.starts_with(usual) && name.size() > usual.size() &&
-           std::all_of(name.begin() + usual.size(), name.end(),
-                       [](char digit) { return digit >= '0' && digit <= '9'; });
+    for (std::size_t k = 1; k < c.openings.size(); ++k)
+        if (name == "outlet_" + std::to_string(k)) return true;
+    return false;
 }
 
 }   // namespace
