@@ -7,14 +7,15 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "patency/base/parallel.h"
 #include "patency/search/cells.h"
 
 namespace patency {
 
-inline Vec3 shortest(Vec3 d, const Frame& frame) {   // the short way round a periodic box
+inline Vec3 shortest(const Vec3& d, const Frame& frame) {   // the short way round a periodic box
+    if (!frame.any_periodic()) return d;
     const auto wrap = [](double x, double side, bool periodic) {
         return periodic ? x - side * std::round(x / side) : x;
     };
@@ -41,16 +42,26 @@ public:
             count_[a] = int(std::clamp(count, 1.0, 400.0));
             scale_[a] = count_[a] / length[a];
         }
-        std::vector<std::pair<std::size_t, std::uint32_t>> found;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const Vec3 d = shortest(points[i] - middle, frame);
-            if (std::abs(d.x) <= half.x && std::abs(d.y) <= half.y && std::abs(d.z) <= half.z)
-                found.push_back({number(cell_of(middle + d)), i});
-        }
-        std::sort(found.begin(), found.end());
+        struct Found {
+            std::size_t bucket;
+            std::uint32_t index;
+        };
+        std::vector<std::vector<Found>> found((points.size() + block_size - 1) / block_size);
+        for_each_block(points.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Vec3 d = shortest(points[i] - middle, frame);
+                if (std::abs(d.x) <= half.x && std::abs(d.y) <= half.y && std::abs(d.z) <= half.z)
+                    found[begin / block_size].push_back({number(cell_of(middle + d)), std::uint32_t(i)});
+            }
+        });
         start_.assign(std::size_t(count_[0]) * std::size_t(count_[1]) * std::size_t(count_[2]) + 1, 0);
-        for (const auto& [bucket, i] : found) ++start_[bucket + 1], index_.push_back(i);
+        for (const auto& block : found)
+            for (const Found& f : block) ++start_[f.bucket + 1];
         for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
+        index_.resize(start_.back());
+        std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+        for (const auto& block : found)
+            for (const Found& f : block) index_[next[f.bucket]++] = f.index;
     }
 
     /// visit(particle) for all that lie within a reach of x, and some more.

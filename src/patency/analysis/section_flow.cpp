@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "patency/analysis/buckets.h"
+#include "patency/base/parallel.h"
 #include "patency/bodies/open_end.h"
 
 namespace patency {
@@ -104,25 +105,26 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
     for (const SectionGrid& s : sections) places.insert(places.end(), s.place.begin(), s.place.end());
     const auto samples = sample_flow(fluid, frame, places, reach, false, &wall);
 
-    std::vector<SectionFlow> result;
-    std::size_t first = 0;
-    for (const SectionGrid& s : sections) {
+    std::vector<std::size_t> first(1, 0);   // place of each section
+    for (const SectionGrid& s : sections) first.push_back(first.back() + s.place.size());
+    std::vector<SectionFlow> result(sections.size());
+    for_each_task(sections.size(), [&](std::size_t n) {
+        const SectionGrid& s = sections[n];
         SectionFlow r{s.total_area(), 0, 0, 0, 0};
         double seen = 0;
         for (std::size_t k = 0; k < s.place.size(); ++k) {
-            const FlowSample& sample = samples[first + k];
+            const FlowSample& sample = samples[first[n] + k];
             if (sample.neighbours == 0) continue;
             const double along = dot(sample.velocity, s.normal);
             seen += s.area[k];
             r.pressure += s.area[k] * sample.pressure;
             r.peak_velocity = std::max(r.peak_velocity, along);
         }
-        first += s.place.size();
         r.pressure /= seen;   // nothing over nothing, where no blood was near
         r.flow = seen > 0 ? flow_of_particles(fluid, frame, s, reach) : NAN;
         r.mean_velocity = r.flow / r.area;
-        result.push_back(r);
-    }
+        result[n] = r;
+    });
     return result;
 }
 
