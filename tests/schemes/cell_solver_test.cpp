@@ -354,8 +354,8 @@ TEST(CellSolver, findsBackFromStepsThatAreTooLong) {
     int from_noise = 0, from_more = 0;
     for (std::uint32_t seed = 1; seed <= 40; ++seed)
         from_noise += finds_back(1, seed), from_more += finds_back(10, seed);
-    EXPECT_GE(from_noise, 37);
-    EXPECT_GE(from_more, 31);
+    EXPECT_EQ(from_noise, 40);
+    EXPECT_GE(from_more, 32);
 }
 
 TEST(CellSolver, saysWhenItDoesNotConverge) {
@@ -400,10 +400,9 @@ TEST(CellSolver, startsNearerFromACoarserFlow) {
     CellBalance from_rest = fine.balance(), from_coarse = fine.balance();
     from_coarse.set_fields(rough.fields_at(fine.mesh.point));
     from_rest.compute_residual(0.5), from_coarse.compute_residual(0.5);
-    const auto slow = solve(from_rest, fine.mesh),
-               quick = solve(from_coarse, fine.mesh, {.starts_sharp = true, .first_courant = 20});
+    const auto slow = solve(from_rest, fine.mesh), quick = solve(from_coarse, fine.mesh, {.starts_sharp = true});
     EXPECT_TRUE(quick.is_converged && !quick.is_damped);
-    EXPECT_LT(quick.linear_steps, 0.9 * slow.linear_steps);
+    EXPECT_LT(quick.linear_steps, 0.7 * slow.linear_steps);   // 0.59; with short first steps 0.84
 }
 
 /// As at rest, with a step as long as near the answer.

@@ -105,7 +105,7 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
     for (const SectionGrid& s : sections) places.insert(places.end(), s.place.begin(), s.place.end());
     const auto samples = sample_flow(fluid, frame, places, reach, false, &wall);
 
-    std::vector<std::size_t> first(1, 0);   // place of each section
+    std::vector<std::size_t> first(1, 0);   // place of every section, and one more
     for (const SectionGrid& s : sections) first.push_back(first.back() + s.place.size());
     std::vector<SectionFlow> result(sections.size());
     for_each_task(sections.size(), [&](std::size_t n) {

@@ -95,6 +95,7 @@ public:
     CellLevel& finest() { return levels_.front(); }
     void make_coarse();
 
+    /// Straight from the definition: what tests hold the product of `precondition` against.
     void multiply(const CellVectors& x, CellVectors& y) const;
     /// One cycle from zero: x is about the inverse times b, and `product` is the matrix times x, which costs half of multiply here.
     void precondition(const CellVectors& b, CellVectors& x, CellVectors& product);

@@ -5,17 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "patency/base/median.h"
+
 namespace patency {
 
 namespace {
 
 using Values = std::vector<double>;
-
-double median(Values values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// What a line looks like to this file.
 struct Profile {
