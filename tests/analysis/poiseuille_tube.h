@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "patency/analysis/sample.h"
@@ -13,13 +14,15 @@
 namespace patency::testing_analysis {
 
 struct PoiseuilleTube {
-    double radius = 1.5e-3, length = 9e-3, spacing = 0.25e-3, mean_speed = 0.3, slope = -800;   // m, m, m, m/s, Pa/m
+    double radius = 1.5e-3, length = 9e-3, spacing = 0.25e-3, mean_speed = 0.3, slope;   // m, m, m, m/s, Pa/m
     RigidMotion motion = motion_along({1, 2, -1}, {0.01, -0.02, 0.005});
     FluidParticles fluid;
     std::unique_ptr<Frame> frame;
     WallHint wall;
 
-    PoiseuilleTube() {
+    /// The pressure that drives the parabola in blood of 3.5 mPa s, or what is told [Pa/m].
+    explicit PoiseuilleTube(std::optional<double> told = {})
+        : slope(told ? *told : -8 * 3.5e-3 * mean_speed / (radius * radius)) {
         const Lumen tube = make_tube({.length = length, .radius = radius});
         std::mt19937_64 random(5);
         std::uniform_real_distribution<double> any(-0.2 * spacing, 0.2 * spacing);

@@ -10,6 +10,7 @@
 
 #include "patency/analysis/buckets.h"
 #include "patency/base/parallel.h"
+#include "patency/physics/fluid/shear_rate.h"
 
 namespace patency {
 
@@ -17,6 +18,7 @@ namespace {
 
 // A fit needs half as many points again as unknowns, or it follows their noise.
 constexpr double surplus = 1.5;
+constexpr double tangent_step = 1e-3;   // of a shear rate, for the slope of the stress over it
 
 /// One point of a fit.
 struct Datum {
@@ -62,21 +64,28 @@ int count_terms(std::size_t points, bool planar) {
     return double(points) >= surplus * quadratic ? quadratic : double(points) >= surplus * linear ? linear : 1;
 }
 
-FlowSample evaluate(const std::vector<Datum>& data, bool planar, double reach) {
+struct Evaluated {
+    FlowSample sample;
+    Vec3 pressure_gradient;   // [Pa/m]
+    bool is_quadratic;        // both fits are
+};
+
+Evaluated evaluate(const std::vector<Datum>& data, bool planar, double reach) {
     std::size_t with_pressure = 0;
     for (const Datum& datum : data) with_pressure += datum.has_pressure;
     FlowSample sample{{NAN, NAN, NAN}, NAN, {}, int(with_pressure)};
-    if (with_pressure == 0) return sample;
+    if (with_pressure == 0) return {sample, {}, false};
     const int terms = count_terms(data.size(), planar);
     const Eigen::MatrixXd v = fit(data, planar, false, terms);
-    const Eigen::MatrixXd p = fit(data, planar, true, count_terms(with_pressure, planar));
+    const int pressure_terms = count_terms(with_pressure, planar), quadratic = planar ? 6 : 10;
+    const Eigen::MatrixXd p = fit(data, planar, true, pressure_terms);
     sample.velocity = {v(0, 0), v(0, 1), v(0, 2)};
     sample.pressure = p(0, 0);
-    const auto slope = [&](int a) {
-        return terms < 3 ? Vec3{} : Vec3{v(1, a) / reach, v(2, a) / reach, planar ? 0.0 : v(3, a) / reach};
+    const auto slope = [&](const Eigen::MatrixXd& f, int c) {
+        return f.rows() < 3 ? Vec3{} : Vec3{f(1, c) / reach, f(2, c) / reach, planar ? 0.0 : f(3, c) / reach};
     };
-    sample.velocity_gradient = {slope(0), slope(1), slope(2)};
-    return sample;
+    sample.velocity_gradient = {slope(v, 0), slope(v, 1), slope(v, 2)};
+    return {sample, slope(p, 0), terms == quadratic && pressure_terms == quadratic};
 }
 
 /// Points of the wall's surface near a place, a third of the reach apart around its foot.
@@ -98,11 +107,10 @@ void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool pl
         }
 }
 
-}   // namespace
-
-std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
-                                    const LocalLength& reach, bool planar, const WallHint* wall) {
-    std::vector<FlowSample> samples(places.size());
+/// finish(k, the points of the fit of place k, its reach): of different places on different threads.
+template <class Finish>
+void for_each_place(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
+                    const LocalLength& reach, bool planar, const WallHint* wall, const Finish& finish) {
     std::vector<double> own(places.size());
     for_each_index(places.size(), [&](std::size_t k) { own[k] = reach(places[k]); });
     // Places of about one reach together: buckets of the widest would hold a host of the finest particles.
@@ -135,9 +143,70 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
                 });
             else if (wall && !data.empty())
                 add_wall(data, places[k], own[k], planar, *wall);
-            samples[k] = evaluate(data, planar, own[k]);
+            finish(k, data, own[k]);
         }
     }
+}
+
+/// Viscosity mu and the slope of the stress over the shear rate, mu_t, both [Pa s].
+struct Friction {
+    double mu, tangent;
+};
+Friction friction_at(double rate, const std::function<double(double)>& viscosity_at) {
+    const double mu = viscosity_at(rate);
+    if (!(rate > 0)) return {mu, mu};
+    const auto stress = [&](double share) { return share * viscosity_at(share * rate); };
+    return {mu, (stress(1 + tangent_step) - stress(1 - tangent_step)) / (2 * tangent_step)};
+}
+
+/// The velocity gradient at a place of a wall, where grad p = div (2 mu D) is all there is: the second derivative along the normal n is
+/// (grad p - mu times those along the wall) / mu_t. Left to be fitted are values, slopes, what bends along the wall, and how the
+/// curvature changes across the layer.                                                             THEORY.md (5.7)
+Mat3 gradient_of_resting(const std::vector<Datum>& data, const Vec3& pressure_gradient, const Vec3& n,
+                         const Friction& friction, double reach) {
+    const Vec3 known = 0.5 * reach * reach / friction.tangent * pressure_gradient;   // by the squared depth in reaches
+    const double share = friction.mu / friction.tangent;
+    const Vec3 a = normalized(cross(n, std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), b = cross(n, a);
+    constexpr int terms = 10;
+    Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
+    Eigen::Matrix<double, terms, 3> right = Eigen::Matrix<double, terms, 3>::Zero();
+    for (const Datum& datum : data) {
+        const double x = dot(datum.d, a), y = dot(datum.d, b), z = dot(datum.d, n), zz = share * z * z;
+        const Eigen::Matrix<double, terms, 1> basis{1, x, y, z, x * y, x * z, y * z, x * x - zz, y * y - zz, z * z * z};
+        const Vec3 v = datum.velocity - (z * z) * known;
+        normal += datum.weight * basis * basis.transpose();
+        right += datum.weight * basis * Eigen::RowVector3d(v.x, v.y, v.z);
+    }
+    const Eigen::Matrix<double, terms, 3> fit = normal.ldlt().solve(right);
+    const auto slope = [&](int c) { return (1 / reach) * (fit(1, c) * a + fit(2, c) * b + fit(3, c) * n); };
+    return {slope(0), slope(1), slope(2)};
+}
+
+}   // namespace
+
+std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
+                                    const LocalLength& reach, bool planar, const WallHint* wall) {
+    std::vector<FlowSample> samples(places.size());
+    for_each_place(fluid, frame, places, reach, planar, wall,
+                   [&](std::size_t k, const std::vector<Datum>& data, double own) {
+                       samples[k] = evaluate(data, planar, own).sample;
+                   });
+    return samples;
+}
+
+std::vector<FlowSample> sample_at_wall(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
+                                       std::span<const Vec3> normals, const LocalLength& reach, const WallHint& wall,
+                                       const std::function<double(double)>& viscosity_at) {
+    std::vector<FlowSample> samples(places.size());
+    for_each_place(
+        fluid, frame, places, reach, false, &wall, [&](std::size_t k, const std::vector<Datum>& data, double own) {
+            const Evaluated e = evaluate(data, false, own);
+            samples[k] = e.sample;
+            if (!e.is_quadratic) return;
+            const double rate = shear_rate(e.sample.velocity_gradient);
+            samples[k].velocity_gradient =
+                gradient_of_resting(data, e.pressure_gradient, normals[k], friction_at(rate, viscosity_at), own);
+        });
     return samples;
 }
 

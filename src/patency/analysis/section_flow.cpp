@@ -7,7 +7,6 @@
 
 #include "patency/analysis/buckets.h"
 #include "patency/base/parallel.h"
-#include "patency/bodies/open_end.h"
 
 namespace patency {
 
@@ -65,6 +64,16 @@ SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, i
     return grid;
 }
 
+SectionShape shape_of(const SectionGrid& grid) {
+    SectionShape shape{{}, grid.normal, grid.total_area(), 0};
+    for (std::size_t k = 0; k < grid.place.size(); ++k) shape.centre += grid.area[k] / shape.area * grid.place[k];
+    for (std::size_t k = 0; k < grid.place.size(); ++k) {
+        const Vec3 d = grid.place[k] - shape.centre;
+        shape.mean_square += grid.area[k] / shape.area * dot(d, d);
+    }
+    return shape;
+}
+
 namespace {
 
 constexpr double slab_share = 0.75;   // of the reach, 2.6 spacings: two layers on both sides
@@ -72,14 +81,11 @@ constexpr double slab_share = 0.75;   // of the reach, 2.6 spacings: two layers 
 /// The flow through a section from the particles whose feet on its plane lie in its squares.
 double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const SectionGrid& grid,
                          const LocalLength& reach) {
-    SectionShape shape{{}, grid.normal, grid.total_area(), 0};
-    for (std::size_t k = 0; k < grid.place.size(); ++k) shape.centre += grid.area[k] / shape.area * grid.place[k];
+    const SectionShape shape = shape_of(grid);
     const double slab = slab_share * reach(shape.centre), half_diagonal = std::sqrt(0.5) * grid.side;
     const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, grid.place, slab + half_diagonal);
     std::vector<std::uint32_t> near;
     for (std::size_t k = 0; k < grid.place.size(); ++k) {
-        const Vec3 d = grid.place[k] - shape.centre;
-        shape.mean_square += grid.area[k] / shape.area * dot(d, d);
         buckets.for_each_near(grid.place[k], [&](std::uint32_t i) {
             const Vec3 e = fluid.position[i] - grid.place[k];
             if (std::abs(dot(e, grid.normal)) < slab && norm(in_plane(e, grid.normal)) < half_diagonal)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "patency/analysis/sample.h"
+#include "patency/bodies/open_end.h"
 
 namespace patency {
 
@@ -27,6 +28,8 @@ struct SectionGrid {
 };
 /// Squares of `across` to the radius.
 SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, int across = 8);
+/// Centroid, area and mean square of a grid's squares.
+SectionShape shape_of(const SectionGrid& grid);
 
 struct SectionFlow {
     double area;            ///< [m^2]

@@ -14,6 +14,8 @@ namespace {
 // How far inside the pressure is fitted, and how thick the slab is in which the flow is measured, in spacings.
 constexpr double fit_depth = 4;
 constexpr double slab_half_width = 2;
+// How thick the slab around an entrance's section is, and how far inside a particle may be near an end at all.
+constexpr double further_half_width = 2, nearby = std::max(fit_depth, entrance_depth + further_half_width);
 // Over how many spacings beyond the plane the imposed pressure takes over. A particle that crosses the plane is not
 // grasped at once: that would knock on the whole column of blood with every layer that passes.
 constexpr double takeover = 1;
@@ -78,6 +80,8 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
         end.buffer.clear();
         end.inside.clear();
         end.section.clear();
+        end.entrance.clear();
+        end.further.clear();
         end.section_depth = 0.5 * fit_depth * spacing;
     }
     if (ends.empty()) return;
@@ -88,7 +92,7 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
         auto& list = near[begin / block_size];
         for (std::size_t i = begin; i < stop; ++i)
             for (const OpenEnd& end : ends)
-                if (end.axial(x[i]) > -fit_depth * spacing && end.in_reach(x[i])) {
+                if (end.axial(x[i]) > -nearby * spacing && end.in_reach(x[i])) {
                     list.push_back(std::uint32_t(i));
                     break;
                 }
@@ -98,6 +102,12 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
             for (std::size_t k = 0; k < ends.size(); ++k) {
                 OpenEnd& end = ends[k];
                 const double s = end.axial(x[i]);
+                if (end.entrance_section && fluid.opening[i] == 0 && end.in_reach(x[i])) {
+                    const double depth = -s / spacing, off = std::abs(depth - entrance_depth) / further_half_width;
+                    if (depth < entrance_depth) end.entrance.push_back({i, s, 1});
+                    if (off < 1)
+                        end.further.push_back({i, s + entrance_depth * spacing, (1 - off * off) * fluid.volume[i]});
+                }
                 const bool member = std::abs(fluid.opening[i]) == std::int32_t(k) + 1;
                 if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
                 if (member)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,12 @@ namespace patency {
 
 /// The velocity at a place of a section [m/s]; many threads may ask.
 using SectionVelocity = std::function<Vec3(const Vec3& x)>;
+
+/// A plane section of a vessel. `mean_square` is that of the distance from the centre over the section [m^2].
+struct SectionShape {
+    Vec3 centre, normal;
+    double area, mean_square;
+};
 
 struct OpenEnd {
     enum class Kind { velocity, pressure };
@@ -33,6 +40,9 @@ struct OpenEnd {
     std::function<SectionVelocity(double t)> velocity;
     /// And the flow that this carries out of the domain [m^3/s]; if empty, the particles' is taken for it.
     std::function<double(double t)> imposed_flow;
+    /// The vessel's section `entrance_depth` spacings before the plane, with the end's normal. Between the two, where an imposed
+    /// velocity meets the wall's, blood is balanced by itself; without it, with the whole domain.          THEORY.md (4.10)
+    std::optional<SectionShape> entrance_section{};
     SoundAbsorber absorber{};   ///< what it lets out is added to an imposed flow, in the imposed velocity's profile
     /// Pressure end: what is imposed at the plane, above the reference pressure [Pa].
     double pressure = 0;
@@ -65,8 +75,14 @@ struct OpenEnd {
         double weight;   ///< for averages over the section
     };
     std::vector<Member> buffer, inside, section;
-    double section_depth = 0;   ///< how far before the plane the middle of `inside` lies [m]
+    std::vector<Member> entrance,
+        further;                  ///< particles between plane and entrance_section; and those around that section
+    double entrance_excess = 0;   ///< of the divergences in the entrance [1/s]
+    double section_depth = 0;     ///< how far before the plane the middle of `inside` lies [m]
 };
+
+/// How far before an end its entrance goes [spacings]: a corner of imposed and resting blood is in the sums of two layers of supports.
+inline constexpr double entrance_depth = 6;
 
 /// Sorts the particles near every end into its lists.
 void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);
@@ -86,11 +102,7 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share);
 
 /// Area [m^2] times the mean velocity [m/s] through a section, from particles that stand anywhere in it: their weighted mean, and a
-/// fitted parabola for where they stand. `mean_square` is that of the distance from the centre over the section [m^2]. THEORY.md (8.9)
-struct SectionShape {
-    Vec3 centre, normal;
-    double area, mean_square;
-};
+/// fitted parabola for where they stand.                                                         THEORY.md (8.9)
 double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
                        std::span<const OpenEnd::Member> members);
 

@@ -7,6 +7,7 @@
 #include "patency/schemes/flow_terms.h"
 #include "patency/schemes/order.h"
 #include "patency/schemes/records.h"
+#include "patency/schemes/wall_mirror.h"
 
 namespace patency {
 
@@ -73,6 +74,13 @@ public:
         const Vec3 normal = length > 1e-6 * weight ? sum / length : Vec3{};
         const Vec3 slip = v - Vec3{wall[35], wall[36], wall[37]} / weight;
         return {numerics_.free_slip ? dot(slip, normal) * normal : slip, normal};
+    }
+
+    /// The wall as the particle i with number k sees it, in the loop's unit; `normal` as slip_at_wall tells it.
+    WallBehind behind_wall(std::size_t i, std::uint32_t k, const Vec3& normal) const {
+        const WallMoments& m = wall_moments_[k];
+        return {normal, double(geometry_[i].d), matrix(Sym<T>{m[38], m[39], m[40], m[41], m[42], m[43]}),
+                Vec3{m[44], m[45], m[46]}};
     }
 
     /// finish(i, sums of a term over the row of i): over the blood, and over the wall for particles near it.

@@ -8,6 +8,7 @@
 #include "patency/physics/fluid/shear_rate.h"
 #include "patency/schemes/ends.h"
 #include "patency/schemes/flow_arrangement.h"
+#include "patency/schemes/volume_balance.h"
 #include "patency/schemes/watch.h"
 
 namespace patency {
@@ -28,6 +29,9 @@ constexpr int cycles_per_row = 2;
 // 2.6/h; both are held to about three quarters of the bound of an explicit step.                  THEORY.md (7.1)
 constexpr double viscous_number = 0.125;
 constexpr double upwind_number = 1.5;
+// Spacings. What rises from a wall is known by the blood that gathers there, over the distance to the wall: nearer than the first
+// layer stands that is noise.                                                                      THEORY.md (5.6)
+constexpr double nearest_rise = 0.5;
 // Of the speed of sound: as fast counts blood at rest, for what trembles there is sound. At a quarter of this the pipe of
 // verify windkessel, whose sound is a hundred times as fast as its blood, blows up when its flow turns.   THEORY.md (4.9)
 constexpr double sound_noise = 0.01;
@@ -42,7 +46,8 @@ public:
           material_(material),
           numerics_(numerics),
           kernel_(numerics.kernel()),
-          arrangement_(domain, numerics) {}
+          arrangement_(domain, numerics),
+          balance_(domain, numerics.cell()) {}
 
     FlowStep step(double time, double longest) override {
         arrangement_.sort_particles();
@@ -53,12 +58,14 @@ public:
             arrangement_.write_records();
             for (int pass = 0; pass < shift_passes; ++pass) arrangement_.shift_particles();
             find_members(domain_.fluid, numerics_.spacing, domain_.ends);
+            balance_.divide_into_parts();
             measure_flows(domain_, numerics_, time + report.dt, 0);
             arrangement_.compute_moments();
             arrangement_.compute_corrections();
             write_records();
             const FlowStep advection = choose_step(longest - report.dt);
             compute_viscosity();
+            balance_.share_excess();
 
             const double dt = advection.dt / advection.acoustic_steps;
             start_acoustic_steps(dt);
@@ -69,7 +76,7 @@ public:
                 impose_velocity(domain_, time + report.dt + (k + 1) * dt, velocity_);
                 compress(dt);
                 measure_flows(domain_, numerics_, time + report.dt + (k + 1) * dt, dt);
-                if (!domain_.ends.empty()) balance_volume();
+                if (!domain_.ends.empty()) balance_.find_excess(divergence_);
             }
             move_particles();
             if (domain_.ends.empty()) hold_mean_pressure(level);
@@ -109,6 +116,9 @@ private:
     bool sees_curvature(std::size_t i) const {
         return arrangement_.wall_of(i) == no_wall && domain_.fluid.opening[i] == 0;
     }
+
+    /// In a buffer the velocity is told.
+    bool rests_at_walls(std::size_t i) const { return !numerics_.free_slip && domain_.fluid.opening[i] == 0; }
 
     /// Of a pair the product counts: the speed of the upwind flux between the two [m/s]. None at the wall, where gradients are of
     /// first order; all of it beyond the kernel's reach.                                              THEORY.md (4.9)
@@ -191,9 +201,19 @@ private:
             laplacian -= mu * friction[0] * slip.velocity;
             first += mu * Vec3{friction[2], friction[3], friction[4]};
         }
-        gradient = gradient * correct;
+        // What acoustic steps do not see of the divergence and is held for them: the curvature of the velocity.
+        double unseen = sum[15];
+        const Mat3 seen = gradient * correct;
+        if (k != no_wall && rests_at_walls(i) && slip.normal != Vec3{}) {
+            gradient =
+                (1 / unit) * gradient_beside_wall(gradient, unit * correct, arrangement_.behind_wall(i, k, slip.normal),
+                                                  nearest_rise * numerics_.spacing / unit);
+            unseen = trace(gradient) - trace(seen);
+        } else {
+            gradient = seen;
+        }
         const Vec<T>& radial = arrangement_.radial_moment(i);
-        held_[i] = {T(unit * radial.x), T(unit * radial.y), T(unit * radial.z), sum[15]};
+        held_[i] = {T(unit * radial.x), T(unit * radial.y), T(unit * radial.z), T(unseen)};
         if (fluid.opening[i] != 0) {   // natural outflow: nothing changes along the axis
             const Vec3& axis = end_of(domain_, i).normal;
             gradient = gradient - outer(gradient * axis, axis);
@@ -266,7 +286,6 @@ private:
         const double unit = arrangement_.unit(), c = material_.sound_speed;
         const double stiffness = material_.density * c * c;
         const double smoothing = numerics_.pressure_dissipation * c * kernel_.slope() * numerics_.cell() * unit;
-        const double excess = fluid.excess_divergence;
         divergence_.resize(fluid.size());
         const auto records = records_of(arrangement_.geometry(), velocity_);
         arrangement_.sum_over_blood(
@@ -280,7 +299,7 @@ private:
                 }
                 const Quad<T>& held = held_[i];
                 divergence_[i] = double(divergence) + double(held.d);
-                const double expansion = divergence_[i] - excess;
+                const double expansion = divergence_[i] - balance_.excess(i);
                 const Vec3& g = fluid.pressure_gradient[i];   // the linear part, whose diffusion vanishes: taken off
                 const double jump = double(s[6]) - (g.x * held.a + g.y * held.b + g.z * held.c);
                 // Blood does not expand on its way down a pressure gradient: the artificial compressibility acts at a
@@ -316,29 +335,12 @@ private:
         for_each_index(p.size(), [&](std::size_t i) { p[i] -= gained; });
     }
 
-    /// Gauss's theorem for the domain as a whole: the divergences of its blood must add up to the flow through its
-    /// openings. The sums over neighbours know that to their order only; the rest is taken off evenly.
-    ///                                                                                            THEORY.md (4.10)
-    void balance_volume() {
-        const FluidParticles& fluid = domain_.fluid;
-        const auto inside = [&](std::size_t i) { return fluid.opening[i] == 0; };
-        double count = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? 1.0 : 0.0; });
-        double sum = sum_of(fluid.size(), [&](std::size_t i) { return inside(i) ? divergence_[i] : 0.0; });
-        double outflow = 0;
-        for (const OpenEnd& end : domain_.ends) {
-            outflow += end.flow;
-            if (end.imposed_flow) continue;
-            for (const auto& m : end.inside)   // beyond where the mean flow is taken from
-                if (m.s > -end.section_depth) count -= 1, sum -= divergence_[m.index];
-        }
-        domain_.fluid.excess_divergence = (sum - outflow / numerics_.cell()) / count;
-    }
-
     FlowDomain domain_;
     FluidMaterial material_;
     FlowNumerics numerics_;
     WendlandC2 kernel_;
     Arrangement<T> arrangement_;
+    VolumeBalance balance_;
     AlignedVector<Quad<T>> pressure_, velocity_;         // records: (x, p), (v, mu) and from the first kick on (v, p)
     std::array<AlignedVector<Quad<T>>, 3> gradient_;     // records: rows of the velocity gradient, per unit of the loop
     std::array<AlignedVector<Quad<T>>, 2> correction_;   // records: of the divergence: (xx, yy, zz, .), (xy, xz, yz, .)

@@ -91,8 +91,9 @@ struct Moments {
 /// from a particle at distance s before it, v_wall - v_i = (v_surface - v_i) (1 + D/s).          THEORY.md (5.1)
 /// value of i: s, of j: D. Extra quads of j: (normal, curvature), (velocity of the surface, .). Beyond the moments:
 ///   27-29 sum w (1 + D/s) d   30 sum w   31-33 sum w normal   34 sum w curvature   35-37 sum w velocity
+///   38-43 sum w D d d (xx, yy, zz, xy, xz, yz)   44-46 sum w D (D + s)/2 d                          THEORY.md (5.5)
 struct WallMoments {
-    static constexpr int own_extras = 0, extras = 2, sums = moments + 11;
+    static constexpr int own_extras = 0, extras = 2, sums = moments + 20;
     template <class P>
     PATENCY_INLINE void operator()(const Pair<P>& pair, const Sample<P, 0>& i, const Sample<P, 2>& j,
                                    std::array<P, sums>& sum) const {
@@ -107,6 +108,12 @@ struct WallMoments {
         sum[34] = fma(w, normal.d, sum[34]);
         sum[35] = fma(w, velocity.a, sum[35]), sum[36] = fma(w, velocity.b, sum[36]),
         sum[37] = fma(w, velocity.c, sum[37]);
+        const Vec<P>& d = pair.d;
+        const P deep = w * j.value, x = deep * d.x, y = deep * d.y, z = deep * d.z;
+        sum[38] = fma(x, d.x, sum[38]), sum[39] = fma(y, d.y, sum[39]), sum[40] = fma(z, d.z, sum[40]);
+        sum[41] = fma(x, d.y, sum[41]), sum[42] = fma(x, d.z, sum[42]), sum[43] = fma(y, d.z, sum[43]);
+        const P middle = P(0.5f) * (j.value + i.value);
+        sum[44] = fma(middle, x, sum[44]), sum[45] = fma(middle, y, sum[45]), sum[46] = fma(middle, z, sum[46]);
     }
 };
 

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
+#include "patency/analysis/section_flow.h"
 #include "patency/base/errors.h"
 #include "patency/stages/bed.h"
 #include "patency/stages/cell_build.h"
@@ -47,6 +50,24 @@ FlowNumerics make_numerics(const deck::Case& config, const Lumen& lumen) {
     return numerics;
 }
 
+// To the radius, of the grid that measures an entrance's section: to 1e-3 of its area.
+constexpr int squares_across = 24;
+
+/// The section at the end of an opening's entrance; none in a plane, whose sections have no grid, or where the vessel parts before.
+std::optional<SectionShape> entrance_section_of(const Lumen& lumen, const OpenEnd& end, double spacing) {
+    if (lumen.planar) return {};
+    const WallHint wall{.distance = [&](const Vec3& x) { return lumen.distance.value(x); },
+                        .normal = [&](const Vec3& x) { return lumen.distance.gradient(x); },
+                        .velocity = {}};
+    const Vec3 centre = end.centre - entrance_depth * spacing * end.normal;
+    const SectionGrid grid =
+        make_section_grid({centre, end.normal, std::sqrt(end.area / std::numbers::pi)}, wall, squares_across);
+    if (grid.place.empty() || !grid.closed ||
+        !std::all_of(grid.place.begin(), grid.place.end(), [&](const Vec3& x) { return end.in_reach(x); }))
+        return {};
+    return shape_of(grid);
+}
+
 void make_ends(Scene& scene) {
     const double dp = scene.numerics.spacing;
     for (const Opening& opening : scene.lumen.openings) {
@@ -71,6 +92,7 @@ void make_ends(Scene& scene) {
             end.imposed_flow = [flow = make_end_flow(opening, said, law, scene.config.blood)](double time) {
                 return -flow(time);
             };
+            end.entrance_section = entrance_section_of(scene.lumen, end, dp);
         }
         scene.ends.push_back(std::move(end));
         scene.laws.push_back(std::move(law));

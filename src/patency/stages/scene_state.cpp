@@ -26,6 +26,7 @@ void for_each_number(SceneType& scene, Visit visit) {
         visit("end_resistance", end.resistance);
         visit("end_flow", end.flow);
         visit("end_flow_excess", end.flow_excess);
+        visit("end_entrance_excess", end.entrance_excess);
         visit("end_mean_pressure", end.mean_pressure);
         visit("end_slope", end.slope);
         visit("end_sound_mean", end.absorber.mean);
