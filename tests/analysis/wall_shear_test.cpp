@@ -102,11 +102,11 @@ TEST(WallShear, NeedsNoDistancesWhereTheSurfaceHasPoints) {
     }
 }
 
-/// A layer over the plate z = 0 in which blood is slowed down by the pressure that it runs into: v = a z + k z^2 + c z^3 along x, with the
-/// curvature at the plate that the pressure's slope asks for.
+/// A layer over the plate z = 0 in which blood is slowed down along x by the pressure that it runs into, and pushed along y: with the
+/// curvatures at the plate that the pressure's slopes ask for, of blood whose stress over the shear rate has the slope tangent mu there.
 struct SlowedLayer {
-    double spacing = 0.2e-3, slope = 900, third = -3e9, mu = 3.5e-3,
-           pressure_slope = 12000;   // m, 1/s, 1/(m^2 s), Pa s, Pa/m
+    double spacing = 0.2e-3, slope = 900, third = -3e9, mu = 3.5e-3;   // m, 1/s, 1/(m^2 s), Pa s
+    Vec3 push{12000, 5000, 0};                                         // Pa/m
     FluidParticles fluid;
     Frame frame{{-4e-3, -4e-3, -1e-3}, {4e-3, 4e-3, 4e-3}, 2.6 * spacing};
     WallHint wall{.distance = [](const Vec3& x) { return -x.z; },
@@ -115,8 +115,9 @@ struct SlowedLayer {
                           return Vec3{0, 0, -1};
                       },
                   .velocity = {}};
+    WallPlaces places{{{0, 0, 0}, {0.3e-3, -0.2e-3, 0}}, {{0, 0, -1}, {0, 0, -1}}};
 
-    SlowedLayer() {
+    explicit SlowedLayer(double tangent = 1) {
         std::mt19937_64 random(9);
         std::uniform_real_distribution<double> any(-0.2 * spacing, 0.2 * spacing);
         std::vector<Vec3> points;
@@ -129,8 +130,15 @@ struct SlowedLayer {
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double z = points[i].z;
             fluid.position[i] = points[i];
-            fluid.velocity[i] = {slope * z + 0.5 * pressure_slope / mu * z * z + third * z * z * z, 0, 0};
-            fluid.pressure[i] = pressure_slope * points[i].x;
+            fluid.velocity[i] = {slope * z + 0.5 * push.x / (tangent * mu) * z * z + third * z * z * z,
+                                 0.5 * push.y / mu * z * z, 0};
+            fluid.pressure[i] = dot(push, points[i]);
+        }
+    }
+    void expect_exact(const WallFlow& flow, double allowed) const {
+        for (std::size_t k = 0; k < places.position.size(); ++k) {
+            EXPECT_NEAR(flow.shear_stress[k].x / (mu * slope), 1, allowed) << k;
+            EXPECT_NEAR(flow.shear_stress[k].y / (mu * slope), 0, allowed) << k;
         }
     }
 };
@@ -138,14 +146,36 @@ struct SlowedLayer {
 // Its curvature changes sign within the reach: a quadratic fit makes a tenth too much of the slope.     THEORY.md (5.7)
 TEST(WallShear, OfALayerThatIsSlowedDownIsExact) {
     const SlowedLayer layer;
-    const WallPlaces places{{{0, 0, 0}, {0.3e-3, -0.2e-3, 0}}, {{0, 0, -1}, {0, 0, -1}}};
-    const WallFlow flow = flow_at_wall(layer.fluid, layer.frame, places, 2.6 * layer.spacing, layer.wall,
+    const WallFlow flow = flow_at_wall(layer.fluid, layer.frame, layer.places, 2.6 * layer.spacing, layer.wall,
                                        [&](double) { return layer.mu; });
-    for (std::size_t k = 0; k < 2; ++k) {
-        EXPECT_NEAR(flow.shear_stress[k].x / (layer.mu * layer.slope), 1, 1e-9) << k;
-        EXPECT_NEAR(flow.shear_stress[k].y, 0, 1e-9) << k;
-        EXPECT_NEAR(flow.pressure[k], layer.pressure_slope * places.position[k].x, 1e-9) << k;
-    }
+    layer.expect_exact(flow, 1e-9);
+    for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(flow.pressure[k], dot(layer.push, layer.places.position[k]), 1e-9) << k;
+}
+
+// Along the shear friction grows with the slope of the stress, here 2 mu, across it with the stress itself.
+TEST(WallShear, OfThinningBloodKnowsAlongFromAcross) {
+    const SlowedLayer layer(2);
+    layer.expect_exact(flow_at_wall(layer.fluid, layer.frame, layer.places, 2.6 * layer.spacing, layer.wall,
+                                    [&](double rate) { return layer.mu * rate / layer.slope; }),
+                       0.01);
+}
+
+TEST(WallShear, OfBloodThatAForceHoldsIsNone) {
+    SlowedLayer layer;
+    for (Vec3& v : layer.fluid.velocity) v = {};
+    const WallFlow flow = flow_at_wall(
+        layer.fluid, layer.frame, layer.places, 2.6 * layer.spacing, layer.wall, [&](double) { return layer.mu; },
+        layer.push);
+    for (const Vec3& stress : flow.shear_stress) EXPECT_LE(norm(stress), 1e-9);
+}
+
+TEST(WallShear, WhereASurfaceHasNoNormalIsNone) {
+    SlowedLayer layer;
+    layer.places.normal[0] = {};
+    const WallFlow flow = flow_at_wall(layer.fluid, layer.frame, layer.places, 2.6 * layer.spacing, layer.wall,
+                                       [&](double) { return layer.mu; });
+    EXPECT_EQ(norm(flow.shear_stress[0]), 0);
 }
 
 TEST(WallShear, UsesTheViscosityAtTheShearRateThere) {

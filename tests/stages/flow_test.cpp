@@ -139,6 +139,26 @@ numerics: {spacing: "0.2 mm", duration: "60 ms"}
         EXPECT_NEAR(section.flow / (std::numbers::pi * radius * radius * speed), 1, 0.01);
 }
 
+// Six spacings in, and eight more to the outlet.
+TEST(Build, a_short_tube_has_no_entrance) {
+    const auto has_entrance = [](const char* mm) {
+        const auto scene = build_frame(deck::parse_case(fmt::format(R"(version: 1
+case: {{name: entrance}}
+geometry: {{shape: {{type: tube, diameter: "2 mm", length: "{} mm"}}}}
+blood: {{density: "1060 kg/m^3", viscosity: "3.5 mPa s"}}
+openings:
+  inlet: {{type: velocity, profile: plug, velocity: "0.2 m/s"}}
+  outlet: {{type: pressure, pressure: "0 Pa"}}
+numerics: {{spacing: "0.2 mm", duration: "60 ms"}}
+)",
+                                                                    mm)));
+        return scene->ends[0].entrance_section.has_value();
+    };
+    EXPECT_FALSE(has_entrance("1.4"));
+    EXPECT_FALSE(has_entrance("2.7"));
+    EXPECT_TRUE(has_entrance("3"));
+}
+
 TEST(Flow, a_resistance_outlet_stands_at_its_pressure) {
     ChannelDeck deck;
     const double flow = 2.0 / 3 * peak * gap, resistance = 1e8;

@@ -159,13 +159,13 @@ Friction friction_at(double rate, const std::function<double(double)>& viscosity
     return {mu, (stress(1 + tangent_step) - stress(1 - tangent_step)) / (2 * tangent_step)};
 }
 
-/// The velocity gradient at a place of a wall, where grad p = div (2 mu D) is all there is: the second derivative along the normal n is
-/// (grad p - mu times those along the wall) / mu_t. Left to be fitted are values, slopes, what bends along the wall, and how the
+/// The gradient of a part of the velocity at a place of a wall whose second derivative along the normal n is known: `curvature`
+/// [1/(m s)] less `share` times those along the wall. Left to be fitted are values, slopes, what bends along the wall, and how the
 /// curvature changes across the layer.                                                             THEORY.md (5.7)
-Mat3 gradient_of_resting(const std::vector<Datum>& data, const Vec3& pressure_gradient, const Vec3& n,
-                         const Friction& friction, double reach) {
-    const Vec3 known = 0.5 * reach * reach / friction.tangent * pressure_gradient;   // by the squared depth in reaches
-    const double share = friction.mu / friction.tangent;
+template <class Part>
+Mat3 fit_of_resting(const std::vector<Datum>& data, const Vec3& n, const Vec3& curvature, double share, double reach,
+                    const Part& part) {
+    const Vec3 known = 0.5 * reach * reach * curvature;   // by the squared depth in reaches
     const Vec3 a = normalized(cross(n, std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), b = cross(n, a);
     constexpr int terms = 10;
     Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
@@ -173,13 +173,27 @@ Mat3 gradient_of_resting(const std::vector<Datum>& data, const Vec3& pressure_gr
     for (const Datum& datum : data) {
         const double x = dot(datum.d, a), y = dot(datum.d, b), z = dot(datum.d, n), zz = share * z * z;
         const Eigen::Matrix<double, terms, 1> basis{1, x, y, z, x * y, x * z, y * z, x * x - zz, y * y - zz, z * z * z};
-        const Vec3 v = datum.velocity - (z * z) * known;
+        const Vec3 v = part(datum.velocity) - (z * z) * known;
         normal += datum.weight * basis * basis.transpose();
         right += datum.weight * basis * Eigen::RowVector3d(v.x, v.y, v.z);
     }
     const Eigen::Matrix<double, terms, 3> fit = normal.ldlt().solve(right);
     const auto slope = [&](int c) { return (1 / reach) * (fit(1, c) * a + fit(2, c) * b + fit(3, c) * n); };
     return {slope(0), slope(1), slope(2)};
+}
+
+/// All of it, where push = div (2 mu D) is all there is. Along the shear at the wall friction grows with mu_t, across it with mu. first:
+/// the gradient as far as it is known.
+Mat3 gradient_of_resting(const std::vector<Datum>& data, const Mat3& first, const Vec3& n, const Vec3& push,
+                         const Friction& friction, double reach) {
+    const Vec3 slope = first * n, shear = slope - dot(slope, n) * n;
+    if (friction.tangent == friction.mu || !(dot(shear, shear) > 0))
+        return fit_of_resting(data, n, push / friction.mu, 1, reach, [](const Vec3& v) { return v; });
+    const Vec3 t = normalized(shear);
+    const auto along = [&](const Vec3& v) { return dot(v, t) * t; };
+    const auto across = [&](const Vec3& v) { return v - dot(v, t) * t; };
+    return fit_of_resting(data, n, along(push) / friction.tangent, friction.mu / friction.tangent, reach, along) +
+           fit_of_resting(data, n, across(push) / friction.mu, 1, reach, across);
 }
 
 }   // namespace
@@ -196,16 +210,20 @@ std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& fr
 
 std::vector<FlowSample> sample_at_wall(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
                                        std::span<const Vec3> normals, const LocalLength& reach, const WallHint& wall,
-                                       const std::function<double(double)>& viscosity_at) {
+                                       const std::function<double(double)>& viscosity_at, const Vec3& force) {
     std::vector<FlowSample> samples(places.size());
     for_each_place(
         fluid, frame, places, reach, false, &wall, [&](std::size_t k, const std::vector<Datum>& data, double own) {
             const Evaluated e = evaluate(data, false, own);
             samples[k] = e.sample;
-            if (!e.is_quadratic) return;
-            const double rate = shear_rate(e.sample.velocity_gradient);
-            samples[k].velocity_gradient =
-                gradient_of_resting(data, e.pressure_gradient, normals[k], friction_at(rate, viscosity_at), own);
+            const Vec3& n = normals[k];
+            if (!e.is_quadratic || !(dot(n, n) > 0)) return;   // a folded surface has places without a normal
+            Mat3& gradient = samples[k].velocity_gradient;
+            for (int pass = 0; pass < 2; ++pass) {   // the second with the viscosity at the first one's shear rate
+                const Friction friction = friction_at(shear_rate(gradient), viscosity_at);
+                gradient = gradient_of_resting(data, gradient, n, e.pressure_gradient - force, friction, own);
+                if (friction.tangent == friction.mu) return;
+            }
         });
     return samples;
 }

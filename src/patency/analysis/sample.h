@@ -52,12 +52,12 @@ private:
 std::vector<FlowSample> sample_flow(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
                                     const LocalLength& reach, bool planar, const WallHint* wall = nullptr);
 
-/// The same at places on the wall itself with unit normals out of the blood, where blood sticks to the wall and no force but pressure
-/// and friction acts: there the curvature of the velocity is known from the pressure's gradient, and the fit is free to follow how it
-/// changes. viscosity_at: of the shear rate [1/s]: [Pa s].                                          THEORY.md (5.7)
+/// The same at places on the wall itself with unit normals out of the blood, where blood sticks to the wall and nothing acts but
+/// pressure, friction and a force per volume [N/m^3]: there the curvature of the velocity is known from the pressure's gradient, and the
+/// fit is free to follow how it changes. viscosity_at: of the shear rate [1/s]: [Pa s].             THEORY.md (5.7)
 std::vector<FlowSample> sample_at_wall(const FluidParticles& fluid, const Frame& frame, std::span<const Vec3> places,
                                        std::span<const Vec3> normals, const LocalLength& reach, const WallHint& wall,
-                                       const std::function<double(double)>& viscosity_at);
+                                       const std::function<double(double)>& viscosity_at, const Vec3& force);
 
 /// `count` places from one point to another, both included [m].
 std::vector<Vec3> places_along(const Vec3& from, const Vec3& to, int count);

@@ -11,9 +11,9 @@
 namespace patency {
 
 WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
-                      const LocalLength& reach, const WallHint& wall,
-                      const std::function<double(double)>& viscosity_at) {
-    const auto samples = sample_at_wall(fluid, frame, places.position, places.normal, reach, wall, viscosity_at);
+                      const LocalLength& reach, const WallHint& wall, const std::function<double(double)>& viscosity_at,
+                      const Vec3& force) {
+    const auto samples = sample_at_wall(fluid, frame, places.position, places.normal, reach, wall, viscosity_at, force);
     WallFlow flow{std::vector<Vec3>(samples.size()), std::vector<double>(samples.size())};
     for (std::size_t k = 0; k < samples.size(); ++k) {
         const Mat3& g = samples[k].velocity_gradient;

@@ -25,10 +25,10 @@ struct WallFlow {
 /// The force of the blood along the wall, per area [Pa], at every place: the viscosity at the shear rate there, times the
 /// velocity gradient fitted one-sidedly to the blood and to the wall's own velocity. It points where the blood goes. NaN
 /// where no blood is within reach. viscosity_at: of the shear rate [1/s]: [Pa s].                THEORY.md (5.4)
-/// Pressures are fitted to the blood alone.
+/// Pressures are fitted to the blood alone. force: what acts on it beside them, per volume [N/m^3].
 WallFlow flow_at_wall(const FluidParticles& fluid, const Frame& frame, const WallPlaces& places,
-                      const LocalLength& reach, const WallHint& wall,
-                      const std::function<double(double)>& viscosity_at);
+                      const LocalLength& reach, const WallHint& wall, const std::function<double(double)>& viscosity_at,
+                      const Vec3& force = {});
 
 /// What a scheme says itself of small parts of a wall.
 struct WallParts {

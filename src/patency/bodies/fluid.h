@@ -32,7 +32,8 @@ struct FluidParticles : ParticleSet {
     Field<double> viscosity{*this, "viscosity", "Pa s", Keep::state};
     Field<Vec3> slow_acceleration{*this, "slow_acceleration", "m/s^2", Keep::scratch};
 
-    /// Mean divergence that the sums of the last acoustic step report beyond what leaves through the openings [1/s].
+    /// Mean divergence that the sums of the last acoustic step report beyond what leaves through the openings, of all
+    /// blood but that in their entrances [1/s].
     double excess_divergence = 0;   //                                                            THEORY.md (4.10)
 };
 

@@ -14,8 +14,9 @@ namespace {
 // How far inside the pressure is fitted, and how thick the slab is in which the flow is measured, in spacings.
 constexpr double fit_depth = 4;
 constexpr double slab_half_width = 2;
-// How thick the slab around an entrance's section is, and how far inside a particle may be near an end at all.
-constexpr double further_half_width = 2, nearby = std::max(fit_depth, entrance_depth + further_half_width);
+// How thick the slab around an entrance's section is.
+constexpr double further_half_width = near_end - entrance_depth;
+static_assert(fit_depth <= near_end);
 // Over how many spacings beyond the plane the imposed pressure takes over. A particle that crosses the plane is not
 // grasped at once: that would knock on the whole column of blood with every layer that passes.
 constexpr double takeover = 1;
@@ -92,7 +93,7 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
         auto& list = near[begin / block_size];
         for (std::size_t i = begin; i < stop; ++i)
             for (const OpenEnd& end : ends)
-                if (end.axial(x[i]) > -nearby * spacing && end.in_reach(x[i])) {
+                if (end.axial(x[i]) > -near_end * spacing && end.in_reach(x[i])) {
                     list.push_back(std::uint32_t(i));
                     break;
                 }

@@ -81,8 +81,9 @@ struct OpenEnd {
     double section_depth = 0;     ///< how far before the plane the middle of `inside` lies [m]
 };
 
-/// How far before an end its entrance goes [spacings]: a corner of imposed and resting blood is in the sums of two layers of supports.
-inline constexpr double entrance_depth = 6;
+/// How far before an end its entrance goes, and what is told of the flow there [spacings]: a corner of imposed and resting blood is in
+/// the sums of two layers of supports.
+inline constexpr double entrance_depth = 6, near_end = 8;
 
 /// Sorts the particles near every end into its lists.
 void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);

@@ -76,6 +76,11 @@ public:
         return {numerics_.free_slip ? dot(slip, normal) * normal : slip, normal};
     }
 
+    /// How much of the wall that the particle with number k sees faces one way: 1 of a plane, 0 in the middle between two.
+    double facing(std::uint32_t k) const {
+        const WallMoments& m = wall_moments_[k];
+        return m[30] > T(0) ? norm(Vec3{m[31], m[32], m[33]}) / double(m[30]) : 0;
+    }
     /// The wall as the particle i with number k sees it, in the loop's unit; `normal` as slip_at_wall tells it.
     WallBehind behind_wall(std::size_t i, std::uint32_t k, const Vec3& normal) const {
         const WallMoments& m = wall_moments_[k];

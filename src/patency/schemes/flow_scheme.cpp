@@ -32,6 +32,8 @@ constexpr double upwind_number = 1.5;
 // Spacings. What rises from a wall is known by the blood that gathers there, over the distance to the wall: nearer than the first
 // layer stands that is noise.                                                                      THEORY.md (5.6)
 constexpr double nearest_rise = 0.5;
+// Of the wall that a particle sees faces one way: half, where a corner of a right angle has 0.7.
+constexpr double one_wall = 0.5;
 // Of the speed of sound: as fast counts blood at rest, for what trembles there is sound. At a quarter of this the pipe of
 // verify windkessel, whose sound is a hundred times as fast as its blood, blows up when its flow turns.   THEORY.md (4.9)
 constexpr double sound_noise = 0.01;
@@ -117,8 +119,10 @@ private:
         return arrangement_.wall_of(i) == no_wall && domain_.fluid.opening[i] == 0;
     }
 
-    /// In a buffer the velocity is told.
-    bool rests_at_walls(std::size_t i) const { return !numerics_.free_slip && domain_.fluid.opening[i] == 0; }
+    /// In a buffer the velocity is told; between two walls that are both near there is no one way to rise.
+    bool rests_at_one_wall(std::size_t i, std::uint32_t k) const {
+        return !numerics_.free_slip && domain_.fluid.opening[i] == 0 && arrangement_.facing(k) > one_wall;
+    }
 
     /// Of a pair the product counts: the speed of the upwind flux between the two [m/s]. None at the wall, where gradients are of
     /// first order; all of it beyond the kernel's reach.                                              THEORY.md (4.9)
@@ -201,10 +205,11 @@ private:
             laplacian -= mu * friction[0] * slip.velocity;
             first += mu * Vec3{friction[2], friction[3], friction[4]};
         }
-        // What acoustic steps do not see of the divergence and is held for them: the curvature of the velocity.
+        // What acoustic steps do not see of the divergence and is held for them: the curvature of the velocity, or what
+        // rises from a wall.
         double unseen = sum[15];
         const Mat3 seen = gradient * correct;
-        if (k != no_wall && rests_at_walls(i) && slip.normal != Vec3{}) {
+        if (k != no_wall && rests_at_one_wall(i, k)) {
             gradient =
                 (1 / unit) * gradient_beside_wall(gradient, unit * correct, arrangement_.behind_wall(i, k, slip.normal),
                                                   nearest_rise * numerics_.spacing / unit);
@@ -348,7 +353,7 @@ private:
     std::vector<Vec3> surface_velocity_;                 // of the wall, by the same numbers
     std::vector<Vec3> moved_;
     std::vector<double> divergence_;   // of the velocity, as the sums report it [1/s]
-    // Over the acoustic steps: sum w r d [m], and what the curvature of the velocity adds to its divergence [1/s].
+    // Over the acoustic steps: sum w r d [m], and what curvature or a wall adds to the divergence [1/s].
     AlignedVector<Quad<T>> held_;
     bool gradients_known_ = false;
 };

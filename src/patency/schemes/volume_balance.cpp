@@ -49,7 +49,8 @@ void VolumeBalance::find_excess(std::span<const double> divergence) {
         for (const auto& m : end.inside)   // beyond where the mean flow is taken from
             if (m.s > -end.section_depth && place_[m.index] == rest) count -= 1, sum -= divergence[m.index];
     }
-    fluid.excess_divergence = (sum - outflow / cell_) / count;
+    if (count > 0)
+        fluid.excess_divergence = (sum - outflow / cell_) / count;   // else ends and entrances are all there is
 }
 
 }   // namespace patency

@@ -11,8 +11,8 @@
 
 namespace patency {
 
-/// The entrances of openings with an imposed flow are parts of their own; the rest of the domain is one. The excesses themselves are kept with
-/// the blood and the ends, for the next step and for checkpoints.
+/// The entrances of openings with an imposed flow are parts of their own; the rest of the domain is one. The excesses
+/// themselves are kept with the blood and the ends, for the next step and for checkpoints.
 class VolumeBalance {
 public:
     /// The domain's parts must outlive this; `cell` is the volume of a particle [m^3].

@@ -53,19 +53,28 @@ FlowNumerics make_numerics(const deck::Case& config, const Lumen& lumen) {
 // To the radius, of the grid that measures an entrance's section: to 1e-3 of its area.
 constexpr int squares_across = 24;
 
-/// The section at the end of an opening's entrance; none in a plane, whose sections have no grid, or where the vessel parts before.
-std::optional<SectionShape> entrance_section_of(const Lumen& lumen, const OpenEnd& end, double spacing) {
+/// The section at the end of an opening's entrance: none in a plane, whose sections have no grid; where the vessel parts before; or
+/// where another opening is near.
+std::optional<SectionShape> entrance_section_of(const Scene& scene, const OpenEnd& end) {
+    const Lumen& lumen = scene.lumen;
     if (lumen.planar) return {};
+    const double dp = scene.numerics.spacing, radius = std::sqrt(end.area / std::numbers::pi);
     const WallHint wall{.distance = [&](const Vec3& x) { return lumen.distance.value(x); },
                         .normal = [&](const Vec3& x) { return lumen.distance.gradient(x); },
                         .velocity = {}};
-    const Vec3 centre = end.centre - entrance_depth * spacing * end.normal;
-    const SectionGrid grid =
-        make_section_grid({centre, end.normal, std::sqrt(end.area / std::numbers::pi)}, wall, squares_across);
-    if (grid.place.empty() || !grid.closed ||
-        !std::all_of(grid.place.begin(), grid.place.end(), [&](const Vec3& x) { return end.in_reach(x); }))
-        return {};
-    return shape_of(grid);
+    const auto is_clear = [&](const Vec3& x) {
+        return end.in_reach(x) && std::none_of(scene.ends.begin(), scene.ends.end(), [&](const OpenEnd& other) {
+                   return &other != &end && other.axial(x) > -near_end * dp && other.in_reach(x);
+               });
+    };
+    for (double depth = 1;; ++depth) {
+        const bool is_last = depth == entrance_depth;
+        const SectionGrid grid = make_section_grid({end.centre - depth * dp * end.normal, end.normal, radius}, wall,
+                                                   is_last ? squares_across : squares_across / 3);
+        if (grid.place.empty() || !grid.closed || !std::all_of(grid.place.begin(), grid.place.end(), is_clear))
+            return {};
+        if (is_last) return shape_of(grid);
+    }
 }
 
 void make_ends(Scene& scene) {
@@ -92,11 +101,12 @@ void make_ends(Scene& scene) {
             end.imposed_flow = [flow = make_end_flow(opening, said, law, scene.config.blood)](double time) {
                 return -flow(time);
             };
-            end.entrance_section = entrance_section_of(scene.lumen, end, dp);
         }
         scene.ends.push_back(std::move(end));
         scene.laws.push_back(std::move(law));
     }
+    for (OpenEnd& end : scene.ends)
+        if (end.imposed_flow) end.entrance_section = entrance_section_of(scene, end);
 }
 
 std::unique_ptr<Frame> make_frame(const Scene& scene) {

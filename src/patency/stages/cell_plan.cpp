@@ -13,14 +13,16 @@ namespace patency {
 
 namespace {
 
-// Measured on one core: 0.41 to 0.52 ms of a cell of the reference paper's bifurcation (226,000 to 49,000) and 0.58 ms of one of a real
-// left tree (226,000); the largest resident memory of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 1,330 MB with 226,000 (which
-// mixed forty steps; thirty take 72 MB less).
-constexpr double seconds_per_cell = 0.5e-3, bytes_per_cell = 5000, bytes_at_least = 120e6;
+// One core of a slow machine takes 19 s to build 49,000 cells of the reference paper's bifurcation and to write what they say, 40 s of
+// 95,000, 70 s of 226,000 and 147 s of 763,000: most of it is at the wall, whose cells grow by the power 2/3. To solve them it takes 11, 15,
+// 38 and 92 s. One of a quick machine takes half of that; what stands here is in between. A lesion of 84 % in a real left tree
+// takes three times as long to solve. Memory: the largest resident one of a run was 121 MB with 5,200 cells, 369 MB with 49,000 and 1,330 MB with
+// 226,000 (which mixed forty steps; thirty take 72 MB less).
+constexpr double seconds_at_wall = 0.0127, seconds_per_cell = 0.115e-3, bytes_per_cell = 5000, bytes_at_least = 120e6;
 // Of pipes and a Y with pressures or Windkessels behind them 3 to 6 us; of a bifurcation with an aortic pressure in front, a lesion and
 // coronary beds behind 18, ten iterations in a step.
 constexpr double seconds_per_cell_and_step = 15e-6;
-constexpr double shared = 0.8;   // of the work that a second thread takes half of
+constexpr double shared = 0.9;   // of the work that a second thread takes half of
 
 /// The volume over the cube of the spacing, along the centrelines; each stretch counts once.
 double count_along(const VesselAlong& along, const SpacingField& field) {
@@ -86,8 +88,9 @@ CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) 
     }
     plan.across_narrowest = lumen.narrowest / plan.finest;
     plan.memory = bytes_at_least + bytes_per_cell * plan.cells;
-    plan.seconds =
-        (seconds_per_cell + plan.steps * seconds_per_cell_and_step) * plan.cells * (1 - shared + shared / threads);
+    const double work = seconds_at_wall * std::cbrt(plan.cells * plan.cells) +
+                        (seconds_per_cell + plan.steps * seconds_per_cell_and_step) * plan.cells;
+    plan.seconds = work * (1 - shared + shared / threads);
     return plan;
 }
 

@@ -30,7 +30,8 @@ WallFlow wall_flow(const Scene& scene, const WallPlaces& places, const WallHint&
     const double mu = scene.material.viscosity;
     const auto constant = [mu](double) { return mu; };
     return flow_at_wall(scene.fluid, *scene.frame, places, sampling_reach(scene), hint,
-                        scene.material.viscosity_at ? scene.material.viscosity_at : constant);
+                        scene.material.viscosity_at ? scene.material.viscosity_at : constant,
+                        scene.material.density * scene.numerics.body_force);
 }
 
 bool wall_sticks(const Scene& scene) {
