@@ -34,4 +34,23 @@ numerics: {{spacing: "{:.17g} mm", duration: "{}"{}}}
     }
 };
 
+/// A plug of 0.2 m/s into a tube of 2 mm, against no pressure.
+struct PlugDeck {
+    std::string length, spacing, duration;   // with units
+
+    std::string text() const {
+        return fmt::format(R"(version: 1
+case: {{name: entrance}}
+geometry: {{shape: {{type: tube, diameter: "2 mm", length: "{}"}}}}
+blood: {{density: "1060 kg/m^3", viscosity: "3.5 mPa s"}}
+openings:
+  inlet: {{type: velocity, profile: plug, velocity: "0.2 m/s"}}
+  outlet: {{type: pressure, pressure: "0 Pa"}}
+initial: {{velocity: plug, speed: "0.2 m/s"}}
+numerics: {{spacing: "{}", duration: "{}"}}
+)",
+                           length, spacing, duration);
+    }
+};
+
 }   // namespace patency

@@ -112,16 +112,7 @@ TEST(Flow, pressures_drive_poiseuilles_flow_whatever_their_level) {
 // the outlet.                                                                                     THEORY.md (4.10)
 TEST(Flow, what_a_plug_brings_in_goes_through_every_section) {
     const double speed = 0.2, radius = 1e-3;
-    const auto scene = build_scene(deck::parse_case(R"(version: 1
-case: {name: entrance}
-geometry: {shape: {type: tube, diameter: "2 mm", length: "6 mm"}}
-blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
-openings:
-  inlet: {type: velocity, profile: plug, velocity: "0.2 m/s"}
-  outlet: {type: pressure, pressure: "0 Pa"}
-initial: {velocity: plug, speed: "0.2 m/s"}
-numerics: {spacing: "0.2 mm", duration: "60 ms"}
-)"));
+    const auto scene = build_scene(deck::parse_case(PlugDeck{"6 mm", "0.2 mm", "60 ms"}.text()));
     ASSERT_TRUE(scene->ends[0].entrance_section);
     EXPECT_NEAR(scene->ends[0].entrance_section->area / (std::numbers::pi * radius * radius), 1, 2e-3);
     EXPECT_NEAR(scene->ends[0].entrance_section->mean_square / (0.5 * radius * radius), 1, 4e-3);
@@ -141,22 +132,13 @@ numerics: {spacing: "0.2 mm", duration: "60 ms"}
 
 // Six spacings in, and eight more to the outlet.
 TEST(Build, a_short_tube_has_no_entrance) {
-    const auto has_entrance = [](const char* mm) {
-        const auto scene = build_frame(deck::parse_case(fmt::format(R"(version: 1
-case: {{name: entrance}}
-geometry: {{shape: {{type: tube, diameter: "2 mm", length: "{} mm"}}}}
-blood: {{density: "1060 kg/m^3", viscosity: "3.5 mPa s"}}
-openings:
-  inlet: {{type: velocity, profile: plug, velocity: "0.2 m/s"}}
-  outlet: {{type: pressure, pressure: "0 Pa"}}
-numerics: {{spacing: "0.2 mm", duration: "60 ms"}}
-)",
-                                                                    mm)));
+    const auto has_entrance = [](const char* tube) {
+        const auto scene = build_frame(deck::parse_case(PlugDeck{tube, "0.2 mm", "60 ms"}.text()));
         return scene->ends[0].entrance_section.has_value();
     };
-    EXPECT_FALSE(has_entrance("1.4"));
-    EXPECT_FALSE(has_entrance("2.7"));
-    EXPECT_TRUE(has_entrance("3"));
+    EXPECT_FALSE(has_entrance("1.4 mm"));
+    EXPECT_FALSE(has_entrance("2.7 mm"));
+    EXPECT_TRUE(has_entrance("3 mm"));
 }
 
 TEST(Flow, a_resistance_outlet_stands_at_its_pressure) {

@@ -251,15 +251,7 @@ TEST(RunFlow, an_interrupted_run_goes_on_to_the_same_bytes) {
 
 // Whose entrance has an excess of its own.
 TEST(RunFlow, an_interrupted_run_with_an_entrance_goes_on_to_the_same_bytes) {
-    expect_same_bytes_when_interrupted(deck::parse_case(R"(version: 1
-case: {name: entrance}
-geometry: {shape: {type: tube, diameter: "2 mm", length: "4 mm"}}
-blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
-openings:
-  inlet: {type: velocity, profile: plug, velocity: "0.2 m/s"}
-  outlet: {type: pressure, pressure: "0 Pa"}
-numerics: {spacing: "0.25 mm", duration: "3 ms"}
-)"),
+    expect_same_bytes_when_interrupted(deck::parse_case(PlugDeck{"4 mm", "0.25 mm", "6 ms"}.text()),
                                        {"summary.json", "waveforms.csv"});
 }
 

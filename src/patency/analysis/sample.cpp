@@ -93,8 +93,7 @@ void add_wall(std::vector<Datum>& data, const Vec3& place, double reach, bool pl
     const double distance = wall.distance(place);
     if (!(std::abs(distance) < reach)) return;
     const Vec3 n = wall.normal(place);
-    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 a = planar ? Vec3{-n.y, n.x, 0} : normalized(cross(n, other)), b = planar ? Vec3{} : cross(n, a);
+    const Vec3 a = planar ? Vec3{-n.y, n.x, 0} : unit_across(n), b = planar ? Vec3{} : cross(n, a);
     const Vec3 foot = place - distance * n;
     const double step = reach / 3;
     for (int i = -2; i <= 2; ++i)
@@ -153,10 +152,9 @@ struct Friction {
     double mu, tangent;
 };
 Friction friction_at(double rate, const std::function<double(double)>& viscosity_at) {
-    const double mu = viscosity_at(rate);
-    if (!(rate > 0)) return {mu, mu};
-    const auto stress = [&](double share) { return share * viscosity_at(share * rate); };
-    return {mu, (stress(1 + tangent_step) - stress(1 - tangent_step)) / (2 * tangent_step)};
+    const double mu = viscosity_at(rate), above = viscosity_at((1 + tangent_step) * rate),
+                 below = viscosity_at((1 - tangent_step) * rate);
+    return {mu, mu + (above - below) / (2 * tangent_step)};   // the same to the last bit where the viscosity is one
 }
 
 /// The gradient of a part of the velocity at a place of a wall whose second derivative along the normal n is known: `curvature`
@@ -166,7 +164,7 @@ template <class Part>
 Mat3 fit_of_resting(const std::vector<Datum>& data, const Vec3& n, const Vec3& curvature, double share, double reach,
                     const Part& part) {
     const Vec3 known = 0.5 * reach * reach * curvature;   // by the squared depth in reaches
-    const Vec3 a = normalized(cross(n, std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), b = cross(n, a);
+    const Vec3 a = unit_across(n), b = cross(n, a);
     constexpr int terms = 10;
     Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
     Eigen::Matrix<double, terms, 3> right = Eigen::Matrix<double, terms, 3>::Zero();

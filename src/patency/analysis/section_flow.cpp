@@ -30,8 +30,7 @@ double SectionGrid::total_area() const {
 
 SectionGrid make_section_grid(const SectionPlane& plane, const WallHint& wall, int across) {
     const Vec3& n = plane.normal;
-    const Vec3 other = std::abs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 a = normalized(cross(n, other)), b = cross(n, a);
+    const Vec3 a = unit_across(n), b = cross(n, a);
     const double side = plane.radius / across;
     const int half = farthest_radii * across, width = 2 * half + 1;
     const auto place = [&](int i, int j) {

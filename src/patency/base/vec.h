@@ -88,6 +88,11 @@ struct Mat {
     friend constexpr bool operator==(const Mat&, const Mat&) = default;
 };
 
+/// a : b, the sum of the products of all components.
+template <class T>
+constexpr T double_dot(const Mat<T>& a, const Mat<T>& b) {
+    return dot(a.x, b.x) + dot(a.y, b.y) + dot(a.z, b.z);
+}
 /// The matrix a b^T.
 template <class T>
 constexpr Mat<T> outer(const Vec<T>& a, const Vec<T>& b) {
@@ -106,5 +111,11 @@ constexpr Mat<T> inverse(const Mat<T>& a) {
 
 using Vec3 = Vec<double>;
 using Mat3 = Mat<double>;
+
+/// A unit vector at a right angle to the unit vector n, the same for the same n.
+inline Vec3 unit_across(const Vec3& n) {
+    const bool is_along_x = n.x >= 0.5 || n.x <= -0.5;
+    return normalized(cross(n, is_along_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
+}
 
 }   // namespace patency

@@ -40,8 +40,7 @@ double level_of_ends(std::span<const CellEnd> ends) {
 /// Across a patch of an opening, by differences: row a is the gradient of velocity a [1/s].
 Mat3 gradient_over(const CellPatch& patch, const std::function<Vec3(const Vec3& x)>& velocity) {
     const double step = 0.3 * std::sqrt(norm(patch.area));
-    const Vec3 other = std::abs(patch.normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 first = normalized(cross(patch.normal, other)), second = cross(patch.normal, first);
+    const Vec3 first = unit_across(patch.normal), second = cross(patch.normal, first);
     Mat3 gradient{};
     for (const Vec3& e : {first, second})
         gradient += outer((velocity(patch.centroid + step * e) - velocity(patch.centroid - step * e)) / (2 * step), e);

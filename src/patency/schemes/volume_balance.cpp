@@ -5,12 +5,19 @@
 
 namespace patency {
 
+namespace {
+
+/// Without blood around its section nothing tells the flow there: the domain ends before.
+bool is_balanced(const OpenEnd& end) { return !end.entrance.empty() && !end.further.empty(); }
+
+}   // namespace
+
 void VolumeBalance::divide_into_parts() {
     place_.assign(domain_.fluid.size(), rest);
     places_.clear();
     for (std::uint32_t e = 0; e < domain_.ends.size(); ++e) {
         const OpenEnd& end = domain_.ends[e];
-        if (end.further.empty()) continue;   // the domain ends before: nothing tells the flow there
+        if (!is_balanced(end)) continue;
         for (const auto& m : end.entrance) place_[m.index] = std::uint32_t(places_.size()), places_.push_back({e});
     }
 }
@@ -21,10 +28,10 @@ void VolumeBalance::share_excess() {
     for (const OpenEnd& end : domain_.ends) {
         const auto square = [&](std::size_t k) {
             const Mat3& g = gradient[end.entrance[k].index];
-            return dot(g.x, g.x) + dot(g.y, g.y) + dot(g.z, g.z);
+            return double_dot(g, g);
         };
         const double count = double(end.entrance.size()), sum = sum_of(end.entrance.size(), square);
-        if (end.further.empty() || !(sum > 0)) continue;
+        if (!is_balanced(end) || !(sum > 0)) continue;
         for (std::size_t k = 0; k < end.entrance.size(); ++k)
             places_[place_[end.entrance[k].index]].share = count * square(k) / sum;
     }
@@ -38,7 +45,7 @@ void VolumeBalance::find_excess(std::span<const double> divergence) {
     double outflow = 0;   // of the rest
     for (OpenEnd& end : domain_.ends) {
         double flow = end.flow;
-        if (!end.entrance.empty() && !end.further.empty()) {
+        if (is_balanced(end)) {
             flow = flow_of_section(*end.entrance_section, fluid, end.further);
             const double gathered =
                 sum_of(end.entrance.size(), [&](std::size_t k) { return divergence[end.entrance[k].index]; });

@@ -38,8 +38,7 @@ VesselSection section_of(const nlohmann::json& s, const std::string& branch) {
 }
 
 WallRing ring_around(const SectionPlane& plane, const WallHint& wall) {
-    const Vec3 other = std::abs(plane.normal.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 a = normalized(cross(plane.normal, other)), b = cross(plane.normal, a);
+    const Vec3 a = unit_across(plane.normal), b = cross(plane.normal, a);
     WallRing ring;
     for (int k = 0; k < around; ++k) {
         const double angle = 2 * std::numbers::pi * k / around;

@@ -13,7 +13,7 @@ template <class T>
 T shear_rate(const Mat<T>& g) {
     using std::sqrt;
     const Mat<T> d = T(0.5) * (g + transpose(g));
-    return sqrt(T(2) * (dot(d.x, d.x) + dot(d.y, d.y) + dot(d.z, d.z)));
+    return sqrt(T(2) * double_dot(d, d));
 }
 
 }   // namespace patency

@@ -14,10 +14,6 @@ template <class T>
 Mat<T> cofactor(const Mat<T>& F) {
     return {cross(F.y, F.z), cross(F.z, F.x), cross(F.x, F.y)};
 }
-template <class T>
-T double_dot(const Mat<T>& a, const Mat<T>& b) {
-    return dot(a.x, b.x) + dot(a.y, b.y) + dot(a.z, b.z);
-}
 /// a - tr(a)/3 1
 template <class T>
 Mat<T> deviator(const Mat<T>& a) {
