@@ -114,8 +114,8 @@ TEST(Flow, what_a_plug_brings_in_goes_through_every_section) {
     const double speed = 0.2, radius = 1e-3;
     const auto scene = build_scene(deck::parse_case(PlugDeck{"6 mm", "0.2 mm", "60 ms"}.text()));
     ASSERT_TRUE(scene->ends[0].entrance_section);
-    EXPECT_NEAR(scene->ends[0].entrance_section->area / (std::numbers::pi * radius * radius), 1, 2e-3);
-    EXPECT_NEAR(scene->ends[0].entrance_section->mean_square / (0.5 * radius * radius), 1, 4e-3);
+    EXPECT_NEAR(scene->ends[0].entrance_section->area / (std::numbers::pi * radius * radius), 1, 1e-3);
+    EXPECT_NEAR(scene->ends[0].entrance_section->mean_square / (0.5 * radius * radius), 1, 1e-3);
     EXPECT_FALSE(scene->ends[1].entrance_section);
     const WallHint hint = wall_hint(*scene);
     std::vector<SectionGrid> grids;
