@@ -7,7 +7,7 @@ import { format, styleOf } from "./fields";
 import type { Model } from "./model";
 import type { Station } from "./pullback";
 import { directionAt } from "./pullback";
-import { Vessel, type Seen } from "./vessel";
+import { deployed, Vessel, type Seen } from "./vessel";
 import { Viewer, type Hit } from "./viewer";
 import { looksOf } from "./views";
 
@@ -60,6 +60,7 @@ export class LiveView {
   }
 
   private choose(part: string): void {
+    const isElsewhere = (part === deployed) !== (this.part === deployed); // a stent alone is small beside the vessel
     this.part = part;
     this.parts.set(part);
     const before = this.field.select.value;
@@ -71,6 +72,7 @@ export class LiveView {
     this.frame.max = String(Math.max(0, frames - 1));
     if (frames) this.frame.value = this.frame.max;
     this.show();
+    if (isElsewhere) this.viewer.frame();
   }
 
   private show(): void {
@@ -94,7 +96,7 @@ export class LiveView {
 
   /** The pointer is on the vessel: the curve follows. */
   private pointed(hit: Hit | undefined): void {
-    const flow = this.part === "deploy" ? (this.model.flows[0]?.key ?? "") : this.part;
+    const flow = this.part === deployed ? (this.model.flows[0]?.key ?? "") : this.part;
     const along = this.curves?.point(flow, hit?.place) ?? "";
     const there = hit && this.curves?.station(flow, hit.place);
     this.viewer.mark(there?.station.place, there && directionAt(there.line, there.station), there?.station.radius);

@@ -8,7 +8,7 @@ import { Colours, linesOf, pointsOf, surfaceOf } from "./shapes";
 
 const groups: Record<PieceName, string> = { wall: "On the wall", cut: "On a cut along the vessel", streamlines: "Along streamlines" };
 const pieceNames: PieceName[] = ["wall", "cut", "streamlines"];
-const deployed = "deploy"; // the part's key, and the group of its fields
+export const deployed = "deploy"; // the part's key, and the group of its fields
 
 const isMetal = (body: string): boolean => /stent|ring|strut/i.test(body);
 

@@ -71,8 +71,15 @@ export class Viewer {
     this.draw();
   }
 
+  /** As it is turned, the whole in sight. */
+  frame(): void {
+    const toward = this.camera.position.clone().sub(this.controls.target).normalize();
+    const up = this.camera.up.clone().addScaledVector(toward, -toward.dot(this.camera.up)).normalize();
+    this.look({ toward: toward.toArray(), up: up.toArray() });
+  }
+
   /** From a direction, the whole in sight. */
-  look(look: Look): void {
+  look(look: Pick<Look, "toward" | "up">): void {
     const [toward, up] = [new Vector3(...look.toward), new Vector3(...look.up)];
     const right = up.clone().cross(toward);
     const [x, y, z] = [this.spread(right), this.spread(up), this.spread(toward)];

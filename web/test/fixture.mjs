@@ -58,7 +58,7 @@ export class Fixture {
   }
 }
 
-/** A zigzag ring that widens at the lesion, in four frames. */
+/** A zigzag ring that widens at the lesion, in four frames, and a sleeve of wall around it. */
 function writeFrames(out, lesion) {
   const rows = readFileSync(join(out, "before", "pullback.csv"), "utf8").trim().split("\n").map((row) => row.split(","));
   const column = Object.fromEntries(rows[0].map((name, k) => [name, k]));
@@ -70,7 +70,12 @@ function writeFrames(out, lesion) {
   const side = unit(cross(axis, [0.3, 0.5, 0.8]));
   const other = cross(axis, side);
   mkdirSync(join(out, "deploy", "frames"), { recursive: true });
-  let list = "";
+  const around = (radius, angle, lift) => centre.map((x, j) => x + radius * (Math.cos(angle) * side[j] + Math.sin(angle) * other[j]) + lift * axis[j]);
+  const series = { stent: "", wall: "" };
+  const writeFrame = (body, frame, ...geometry) => {
+    writeFileSync(join(out, "deploy", "frames", `${body}_${frame}.vtp`), vtp(...geometry));
+    series[body] += `<DataSet timestep="${0.001 * frame}" part="0" file="frames/${body}_${frame}.vtp"/>\n`;
+  };
   for (let frame = 0; frame < 4; frame++) {
     const radius = 0.7 + 0.25 * frame;
     const [points, triangles, stress] = [[], [], []];
@@ -78,16 +83,24 @@ function writeFrames(out, lesion) {
     for (let k = 0; k < count; k++) {
       const [angle, lift] = [(2 * Math.PI * k) / count, 1.2 * Math.sin((2 * Math.PI * 8 * k) / count)];
       for (const edge of [-0.08, 0.08]) {
-        points.push(centre.map((x, j) => x + radius * (Math.cos(angle) * side[j] + Math.sin(angle) * other[j]) + (lift + edge) * axis[j]));
+        points.push(around(radius, angle, lift + edge));
         stress.push(1e8 * frame * (1 + Math.cos(16 * angle)));
       }
       const [a, b, c, d] = [2 * k, 2 * k + 1, 2 * ((k + 1) % count), 2 * ((k + 1) % count) + 1];
       triangles.push([a, b, c], [b, d, c]);
     }
-    writeFileSync(join(out, "deploy", "frames", `stent_${frame}.vtp`), vtp(points, triangles, stress));
-    list += `<DataSet timestep="${0.001 * frame}" part="0" file="frames/stent_${frame}.vtp"/>\n`;
+    writeFrame("stent", frame, points, triangles, stress);
   }
-  writeFileSync(join(out, "deploy", "stent.pvd"), `<?xml version="1.0"?>\n<VTKFile type="Collection">\n<Collection>\n${list}</Collection>\n</VTKFile>\n`);
+  const sleeve = { points: [], triangles: [] };
+  const sides = 24;
+  for (let k = 0; k < sides; k++) {
+    for (const lift of [-4, 4]) sleeve.points.push(around(1.8, (2 * Math.PI * k) / sides, lift));
+    const [a, b, c, d] = [2 * k, 2 * k + 1, 2 * ((k + 1) % sides), 2 * ((k + 1) % sides) + 1];
+    sleeve.triangles.push([a, b, c], [b, d, c]);
+  }
+  writeFrame("wall", 0, sleeve.points, sleeve.triangles, sleeve.points.map((_, k) => 1e5 * (1 + Math.cos(k))));
+  for (const [body, list] of Object.entries(series))
+    writeFileSync(join(out, "deploy", `${body}.pvd`), `<?xml version="1.0"?>\n<VTKFile type="Collection">\n<Collection>\n${list}</Collection>\n</VTKFile>\n`);
 }
 
 const unit = (v) => v.map((x) => x / Math.hypot(...v));

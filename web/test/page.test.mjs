@@ -156,6 +156,19 @@ describe("the page of a run of three parts", () => {
     assert.deepEqual(page.complaints, []);
   });
 
+  it("comes near to what is implanted, and goes back to the whole vessel", async () => {
+    const page = await browser.open(urlOf(run));
+    const canvas = page.locator(".canvas-host canvas");
+    const coloured = async (part) => {
+      await page.getByRole("button", { name: part, exact: true }).click();
+      await page.waitForTimeout(300);
+      return (await browser.look(canvas)).share;
+    };
+    const [before, deployment, after] = [await coloured("Before"), await coloured("Deployment"), await coloured("After")];
+    assert.ok(deployment > 0.1, `${deployment} of the canvas`);
+    assert.ok(Math.abs(after / before - 1) < 0.1, `${before}, then ${after}`);
+  });
+
   it("moves through the frames of the deployment", async () => {
     const page = await browser.open(urlOf(run));
     await page.getByRole("button", { name: "Deployment" }).click();

@@ -30,6 +30,7 @@ std::string change(const RunResults& results, const std::vector<std::optional<st
 
 /// One row of a table: cells are HTML.
 std::string table_row(const std::vector<std::string>& cells);
-std::string table(const std::string& caption, const std::vector<std::string>& head, const std::string& rows);
+std::string table(const std::string& caption, const std::vector<std::string>& head, const std::string& rows,
+                  const std::string& kind = "");
 
 }   // namespace patency

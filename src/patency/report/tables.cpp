@@ -198,21 +198,35 @@ std::string outlet_table(const RunResults& results) {
     return table("What lies behind the openings", head, rows);
 }
 
-/// Every number of the deployment, whatever the run has found worth giving.
+/// Every number below a part of the summary, whatever the run has found worth giving.
 void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of,
                  const Measure& inherited) {
     for (const auto& [key, value] : part.items()) {
-        const Measure measure = says_unit(key) ? measure_of(key) : inherited;   // {"stress_pa": {"p50": 1, "p99": 2}}
+        const Measure measure = says_unit(key)              ? measure_of(key)   // {"stress_pa": {"p50": 1, "p99": 2}}
+                                : value.is_number_integer() ? as_count
+                                                            : inherited;
         if (value.is_number()) rows += table_row({escaped(of + words_of(key)), f.with_unit(path + step(key), measure)});
         if (value.is_object()) add_numbers(rows, f, value, path + step(key), of + words_of(key) + ": ", measure);
     }
 }
 
-std::string stent_table(const RunResults& results) {
+/// Of the deployment either how the stent sits or what that took: stresses, energies, particles.
+std::string stent_table(const RunResults& results, const std::string& caption, bool is_of_effort) {
     if (!results.has_deployment) return {};
+    const std::set<std::string> effort{"energies", "stresses", "particles", "spacing_mm", "mass_scaling", "steps"};
+    Json part;
+    for (const auto& [key, value] : (*results.summary)["deploy"].items())
+        if (effort.contains(key) == is_of_effort) part[key] = value;
     std::string rows;
-    add_numbers(rows, Figures(*results.summary), (*results.summary)["deploy"], "/deploy", "", as_ratio);
-    return table("Deployment", {"Quantity", "Value"}, rows);
+    add_numbers(rows, Figures(*results.summary), part, "/deploy", "", as_ratio);
+    return rows.empty() ? "" : table(caption, {"Quantity", "Value"}, rows);
+}
+
+/// Metals are a million times as stiff as tissue: no decimals where there are hundreds.
+Measure of_material(const std::string& key, double value) {
+    Measure measure = measure_of(key);
+    if (std::abs(value * measure.scale) >= 100) measure.digits = 0;
+    return measure;
 }
 
 /// What everything is made of, and who says so.
@@ -226,12 +240,12 @@ std::string material_table(const RunResults& results) {
         std::string numbers;
         for (const auto& [key, value] : summary["materials"][k].items())
             if (value.is_number())
-                numbers += fmt::format("{}{} {}", numbers.empty() ? "" : ", ", escaped(words_of(key)),
-                                       f.with_unit(at + step(key), measure_of(key)));
+                numbers += fmt::format("{}<span class=\"whole\">{} {}</span>", numbers.empty() ? "" : ", ",
+                                       escaped(words_of(key)), f.with_unit(at + step(key), of_material(key, value)));
         rows += table_row({f.text(at + "/part"), f.text(at + "/what"), numbers,
                            "<span class=\"source\">" + f.text(at + "/source") + "</span>"});
     }
-    return table("Materials", {"Part", "What", "Numbers", "Source"}, rows);
+    return table("Materials", {"Part", "What", "Numbers", "Source"}, rows, "words");
 }
 
 std::string run_numbers(const RunResults& results) {
@@ -274,22 +288,23 @@ std::string table_row(const std::vector<std::string>& cells) {
     return row + "</tr>\n";
 }
 
-std::string table(const std::string& caption, const std::vector<std::string>& head, const std::string& rows) {
+std::string table(const std::string& caption, const std::vector<std::string>& head, const std::string& rows,
+                  const std::string& kind) {
     std::string cells;
     for (const std::string& text : head) cells += "<th scope=\"col\">" + text + "</th>";
     return fmt::format(
-        "<div class=\"table\" "
+        "<div class=\"table {}\" "
         "tabindex=\"0\"><table><caption>{}</caption><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
-        caption, cells, rows);
+        kind, caption, cells, rows);
 }
 
 std::string tables_section(const RunResults& results) {
     std::string tables;
     if (!results.flows.empty()) tables += lesion_table(results) + split_table(results) + branch_table(results);
     tables += material_table(results);
-    tables += "<div class=\"small-tables\">\n" + stent_table(results);
+    tables += "<div class=\"small-tables\">\n" + stent_table(results, "Deployment", false);
     if (!results.flows.empty()) tables += paper_table(results) + outlet_table(results) + run_numbers(results);
-    tables += "</div>\n";
+    tables += stent_table(results, "Stresses and energies of the deployment", true) + "</div>\n";
     return "<section id=\"tables\">\n<h2>Numbers</h2>\n" + tables + "</section>\n";
 }
 
