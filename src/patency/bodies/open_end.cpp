@@ -28,6 +28,21 @@ double imposed_share(double s_in_spacings) {
     return q * q * (3 - 2 * q);
 }
 
+/// How steeply the flow through a section rises from the wall before a particle of the first layer, beyond a parabola of this slope
+/// over the squared distance from the centre [1/s]. From the velocity there and its gradient, and rest at the wall; no more than
+/// twice the gradient beyond it, for what begins as a plug knows nothing of a wall yet.
+double slope_beyond_parabola(const SectionShape& section, const FluidParticles& fluid, const OpenEnd::Member& m,
+                             double parabola) {
+    if (!(m.layer > 0)) return 0;
+    const double u = dot(fluid.velocity[m.index], section.normal),
+                 here = dot(fluid.velocity_gradient[m.index] * m.inward, section.normal);
+    if (here == 0) return 0;   // not known
+    const double more = 2 * (u / std::max(m.off_wall, 0.25 * m.layer) - here);
+    const Vec3 d = fluid.position[m.index] - m.off_wall * m.inward - section.centre,
+               across = m.inward - dot(m.inward, section.normal) * section.normal;
+    return here + std::clamp(more, -2 * std::abs(here), 2 * std::abs(here)) - 2 * parabola * dot(d, across);
+}
+
 /// The velocity of blood that is about to enter at the far end of a buffer: as inside, at the same place of the section.
 /// A copy of the parent's would close a loop that only adds up the errors of the buffer. Exact for quadratic profiles,
 /// with the mean of both ends' gradients.                                                           THEORY.md (8.7)
@@ -76,7 +91,8 @@ LineSums line_sums(std::span<const OpenEnd::Member> members, X x_of, Y y_of) {
 
 }   // namespace
 
-void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends) {
+void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends,
+                  const SignedDistance::Sampler& wall) {
     for (OpenEnd& end : ends) {
         end.buffer.clear();
         end.inside.clear();
@@ -103,11 +119,16 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
             for (std::size_t k = 0; k < ends.size(); ++k) {
                 OpenEnd& end = ends[k];
                 const double s = end.axial(x[i]);
+                const auto beside_wall = [&](OpenEnd::Member m) {
+                    if (wall) m.see_wall(wall(x[i]), spacing);
+                    return m;
+                };
                 if (end.entrance_section && fluid.opening[i] == 0 && end.in_reach(x[i])) {
                     const double depth = -s / spacing, off = std::abs(depth - entrance_depth) / further_half_width;
                     if (depth < entrance_depth) end.entrance.push_back({i, s, 1});
                     if (off < 1)
-                        end.further.push_back({i, s + entrance_depth * spacing, (1 - off * off) * fluid.volume[i]});
+                        end.further.push_back(
+                            beside_wall({i, s + entrance_depth * spacing, (1 - off * off) * fluid.volume[i]}));
                 }
                 const bool member = std::abs(fluid.opening[i]) == std::int32_t(k) + 1;
                 if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
@@ -115,10 +136,10 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
                     end.buffer.push_back({i, s, imposed_share(s / spacing)});
                 else {   // a weight that vanishes at both ends: nothing jumps when a particle passes
                     const double share = std::max(0.0, -s / (fit_depth * spacing));
-                    end.inside.push_back({i, s, share * (1 - share) * fluid.volume[i]});
+                    end.inside.push_back(beside_wall({i, s, share * (1 - share) * fluid.volume[i]}));
                 }
                 const double hat = 1 - std::abs(s) / (slab_half_width * spacing);
-                if (hat > 0) end.section.push_back({i, s, hat * fluid.volume[i]});
+                if (hat > 0) end.section.push_back(beside_wall({i, s, hat * fluid.volume[i]}));
             }
 }
 
@@ -148,7 +169,14 @@ double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
             return dot(d, d) - m.s * m.s;
         },
         [&](const OpenEnd::Member& m) { return dot(fluid.velocity[m.index], section.normal); });
-    return section.area * sums.value_at(section.mean_square);
+    const double bend = reduce(
+        members.size(), 0.0,
+        [&](std::size_t k) {
+            return members[k].weight * members[k].layer *
+                   slope_beyond_parabola(section, fluid, members[k], sums.slope());
+        },
+        std::plus<>());
+    return section.area * (sums.value_at(section.mean_square) - (sums.w > 0 ? bend / sums.w / 24 : 0));
 }
 
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share) {

@@ -12,6 +12,7 @@
 
 #include "patency/bodies/fluid.h"
 #include "patency/physics/open_ends/sound_absorber.h"
+#include "patency/shape/signed_distance.h"
 
 namespace patency {
 
@@ -73,6 +74,16 @@ struct OpenEnd {
         std::uint32_t index;
         double s;        ///< beyond the plane [m]
         double weight;   ///< for averages over the section
+        /// In the first layer at a wall that holds the blood: how thick the layer is, how far the particle stands off the wall
+        /// [m], and where away from it is. Of others the layer is 0.
+        double layer = 0, off_wall = 0;
+        Vec3 inward{};
+
+        /// Asks once where the wall is.
+        void see_wall(const DistanceSample& wall, double spacing) {
+            if (-wall.value >= spacing || wall.value > 0) return;
+            layer = spacing, off_wall = -wall.value, inward = -wall.gradient;
+        }
     };
     std::vector<Member> buffer, inside, section;
     std::vector<Member> entrance,
@@ -85,8 +96,9 @@ struct OpenEnd {
 /// the sums of two layers of supports.
 inline constexpr double entrance_depth = 6, near_end = 8;
 
-/// Sorts the particles near every end into its lists.
-void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);
+/// Sorts the particles near every end into its lists. `wall`, where blood rests at walls: what flow_of_section takes into account.
+void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends,
+                  const SignedDistance::Sampler& wall = {});
 
 /// Straight line through the pressure of the particles just inside: mean and slope at a velocity end; the slope through
 /// the imposed value at a pressure end. pressure(i) gives that of particle i [Pa].
@@ -102,8 +114,8 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
 ///                                                                                              THEORY.md (8.10)
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share);
 
-/// Area [m^2] times the mean velocity [m/s] through a section, from particles that stand anywhere in it: their weighted mean, and a
-/// fitted parabola for where they stand.                                                         THEORY.md (8.9)
+/// Area [m^2] times the mean velocity [m/s] through a section, from particles that stand anywhere in it: their weighted mean, a
+/// fitted parabola for where they stand, and what else bends the profile at the wall.             THEORY.md (8.9)
 double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
                        std::span<const OpenEnd::Member> members);
 
