@@ -49,7 +49,7 @@ struct Scene {
         wall.volume[i] = dp * dp;
     }
     std::unique_ptr<FlowScheme> scheme() {
-        const FlowDomain domain{fluid, wall, ends, frame, [](const Vec3&) { return DistanceSample{-1}; }};
+        const FlowDomain domain{fluid, wall, ends, frame, [](const Vec3&) { return -1.0; }};
         return make_paper_scheme(Precision::mixed, domain, blood, numerics);
     }
     Vec3 momentum() const {

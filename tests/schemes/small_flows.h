@@ -30,9 +30,7 @@ struct SmallFlow {
     double support() const { return 2 * numerics.smoothing_ratio * dp; }
     double cell() const { return numerics.planar ? dp * dp : dp * dp * dp; }
     std::unique_ptr<FlowScheme> make(Precision precision) {
-        return make_flow_scheme(
-            precision, {fluid, wall, ends, *frame, [d = distance](const Vec3& x) { return DistanceSample{d(x)}; }},
-            blood, numerics);
+        return make_flow_scheme(precision, {fluid, wall, ends, *frame, distance}, blood, numerics);
     }
     void fill(std::span<const Vec3> points) {
         fluid.resize(points.size());

@@ -91,8 +91,7 @@ LineSums line_sums(std::span<const OpenEnd::Member> members, X x_of, Y y_of) {
 
 }   // namespace
 
-void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends,
-                  const SignedDistance::Sampler& wall) {
+void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends) {
     for (OpenEnd& end : ends) {
         end.buffer.clear();
         end.inside.clear();
@@ -119,16 +118,11 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
             for (std::size_t k = 0; k < ends.size(); ++k) {
                 OpenEnd& end = ends[k];
                 const double s = end.axial(x[i]);
-                const auto beside_wall = [&](OpenEnd::Member m) {
-                    if (wall) m.see_wall(wall(x[i]), spacing);
-                    return m;
-                };
                 if (end.entrance_section && fluid.opening[i] == 0 && end.in_reach(x[i])) {
                     const double depth = -s / spacing, off = std::abs(depth - entrance_depth) / further_half_width;
                     if (depth < entrance_depth) end.entrance.push_back({i, s, 1});
                     if (off < 1)
-                        end.further.push_back(
-                            beside_wall({i, s + entrance_depth * spacing, (1 - off * off) * fluid.volume[i]}));
+                        end.further.push_back({i, s + entrance_depth * spacing, (1 - off * off) * fluid.volume[i]});
                 }
                 const bool member = std::abs(fluid.opening[i]) == std::int32_t(k) + 1;
                 if (!member && (fluid.opening[i] != 0 || s <= -fit_depth * spacing || !end.in_reach(x[i]))) continue;
@@ -136,10 +130,10 @@ void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd
                     end.buffer.push_back({i, s, imposed_share(s / spacing)});
                 else {   // a weight that vanishes at both ends: nothing jumps when a particle passes
                     const double share = std::max(0.0, -s / (fit_depth * spacing));
-                    end.inside.push_back(beside_wall({i, s, share * (1 - share) * fluid.volume[i]}));
+                    end.inside.push_back({i, s, share * (1 - share) * fluid.volume[i]});
                 }
                 const double hat = 1 - std::abs(s) / (slab_half_width * spacing);
-                if (hat > 0) end.section.push_back(beside_wall({i, s, hat * fluid.volume[i]}));
+                if (hat > 0) end.section.push_back({i, s, hat * fluid.volume[i]});
             }
 }
 

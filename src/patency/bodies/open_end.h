@@ -69,13 +69,13 @@ struct OpenEnd {
         return dot(d, d) - s * s < reach * reach;
     }
 
-    /// Found anew in every advection step: indices of particles in the buffer, and of those near the plane.
+    /// Found anew in every advection step, without walls: indices of particles in the buffer, and of those near the plane.
     struct Member {
         std::uint32_t index;
         double s;        ///< beyond the plane [m]
         double weight;   ///< for averages over the section
-        /// In the first layer at a wall that holds the blood: how thick the layer is, how far the particle stands off the wall
-        /// [m], and where away from it is. Of others the layer is 0.
+        /// In the first layer at a wall that holds the blood, if somebody has looked: how thick the layer is, how far the particle
+        /// stands off the wall [m], and where away from it is. Of others the layer is 0.
         double layer = 0, off_wall = 0;
         Vec3 inward{};
 
@@ -96,9 +96,8 @@ struct OpenEnd {
 /// the sums of two layers of supports.
 inline constexpr double entrance_depth = 6, near_end = 8;
 
-/// Sorts the particles near every end into its lists. `wall`, where blood rests at walls: what flow_of_section takes into account.
-void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends,
-                  const SignedDistance::Sampler& wall = {});
+/// Sorts the particles near every end into its lists.
+void find_members(const FluidParticles& fluid, double spacing, std::span<OpenEnd> ends);
 
 /// Straight line through the pressure of the particles just inside: mean and slope at a velocity end; the slope through
 /// the imposed value at a pressure end. pressure(i) gives that of particle i [Pa].

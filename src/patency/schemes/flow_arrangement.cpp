@@ -110,7 +110,7 @@ void Arrangement<T>::measure_wall_distances() {
         const auto& block = wall_rows_.block(b);
         for (std::size_t m = 0; m < block.member_count; ++m) {
             const std::uint32_t i = block.members[m];
-            geometry_[i].d = T(-domain_.distance(x[i]).value / unit());
+            geometry_[i].d = T(-domain_.distance(x[i]) / unit());
         }
     });
 }

@@ -59,7 +59,7 @@ public:
             const double level = mean_pressure();
             arrangement_.write_records();
             for (int pass = 0; pass < shift_passes; ++pass) arrangement_.shift_particles();
-            find_members(domain_.fluid, numerics_.spacing, domain_.ends, resting_wall());
+            find_members(domain_.fluid, numerics_.spacing, domain_.ends);
             balance_.divide_into_parts();
             measure_flows(domain_, numerics_, time + report.dt, 0);
             arrangement_.compute_moments();
@@ -325,13 +325,6 @@ private:
     void move_particles() {
         FluidParticles& fluid = domain_.fluid;
         for_each_index(fluid.size(), [&](std::size_t i) { fluid.position[i] += moved_[i]; });
-    }
-
-    /// Where blood rests at all walls, these; else none, for then nothing tells a profile's slope at them.
-    SignedDistance::Sampler resting_wall() const {
-        const auto& v = domain_.wall.velocity;
-        const bool is_moving = largest_of(v.size(), [&](std::size_t w) { return dot(v[w], v[w]); }) > 0;
-        return numerics_.free_slip || is_moving ? SignedDistance::Sampler{} : domain_.distance;
     }
 
     double mean_pressure() const {

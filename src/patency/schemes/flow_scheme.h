@@ -71,8 +71,8 @@ struct FlowDomain {
     WallParticles& wall;
     std::vector<OpenEnd>& ends;
     const Frame& frame;
-    /// Distance to the nearest wall surface.
-    SignedDistance::Sampler distance;
+    /// Distance to the nearest wall surface, negative inside the blood [m].
+    std::function<double(const Vec3&)> distance;
 };
 
 std::unique_ptr<FlowScheme> make_flow_scheme(Precision precision, const FlowDomain& domain,

@@ -43,7 +43,7 @@ void update_ends(Scene& scene, double time, double dt) {
 
 void start_scheme(Scene& scene) {
     const FlowDomain domain{scene.fluid, scene.wall, scene.ends, *scene.frame,
-                            [&lumen = scene.lumen](const Vec3& x) { return lumen.distance.sample(x); }};
+                            [&lumen = scene.lumen](const Vec3& x) { return lumen.distance.value(x); }};
     const bool is_mixed = scene.config.numerics.precision == deck::Precision::mixed;
     const auto make = scene.config.scheme() == deck::SchemeName::paper ? make_paper_scheme : make_flow_scheme;
     scene.scheme =

@@ -245,8 +245,7 @@ std::unique_ptr<const CellStart> solve_on_cells(Scene& scene, const SolveOnCells
 
 /// What departs from these is sound.
 void start_ends(Scene& scene, const std::vector<double>& pressures, const std::vector<double>& out) {
-    find_members(scene.fluid, scene.numerics.spacing, scene.ends,
-                 [&](const Vec3& x) { return scene.lumen.distance.sample(x); });
+    find_members(scene.fluid, scene.numerics.spacing, scene.ends);
     for (std::size_t k = 0; k < scene.ends.size(); ++k) {
         OpenEnd& end = scene.ends[k];
         end.mean_pressure = pressures[k] - scene.reference_pressure;   // where a flow is imposed

@@ -67,8 +67,8 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
     numerics.planar = planar;
     numerics.reference_speed = 1;
     numerics.shift = 0;
-    const auto scheme = make_flow_scheme(
-        precision, {fluid, wall, ends, frame, [](const Vec3&) { return DistanceSample{-1}; }}, material, numerics);
+    const auto scheme =
+        make_flow_scheme(precision, {fluid, wall, ends, frame, [](const Vec3&) { return -1.0; }}, material, numerics);
     scheme->step(0, 1e-15);
 
     const double trace = planar ? bend_u.x.x + bend_u.y.y : bend_u.x.x + bend_u.y.y + bend_u.z.z;
@@ -94,8 +94,8 @@ Errors measure_operators(Precision precision, bool planar, bool is_disordered) {
         const Vec3 v = linear * (fluid.position[i] / half);
         other.velocity[i] = {v.x, v.y, planar ? 0 : v.z};
     }
-    const auto again = make_flow_scheme(
-        precision, {other, wall, ends, frame, [](const Vec3&) { return DistanceSample{-1}; }}, material, numerics);
+    const auto again =
+        make_flow_scheme(precision, {other, wall, ends, frame, [](const Vec3&) { return -1.0; }}, material, numerics);
     again->step(0, 1e-15);
     const double exact = (linear.x.x + linear.y.y + (planar ? 0 : linear.z.z)) / half;
     for (std::size_t i = 0; i < other.size(); ++i) {

@@ -124,10 +124,8 @@ int main(int argc, char** argv) {
     const double beyond = buffer_length + 12 * dp, around = radius + 5 * dp;
     const Frame frame({-beyond, -around, -around}, {length + beyond, around, around},
                       2 * numerics.smoothing_ratio * dp);
-    const FlowDomain domain{fluid, wall, ends, frame, [](const Vec3& x) {
-                                const double r = std::sqrt(x.y * x.y + x.z * x.z);
-                                return DistanceSample{r - radius, {0, x.y / r, x.z / r}};
-                            }};
+    const FlowDomain domain{fluid, wall, ends, frame,
+                            [](const Vec3& x) { return std::sqrt(x.y * x.y + x.z * x.z) - radius; }};
     const auto scheme =
         make_flow_scheme(mixed ? Precision::mixed : Precision::double_precision, domain, blood, numerics);
 
