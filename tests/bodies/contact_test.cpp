@@ -184,20 +184,31 @@ TEST(SurfaceContact, AThinElementTellsNoSide) {
     EXPECT_LT(contact->report().deepest, 0.3 * spacing);
 }
 
+/// A block whose top has a strip of two thin elements along its edge, from the side's corners a, b to p, q.
+struct StrippedBlock {
+    SolidFill fill = fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, spacing, false);
+    std::uint32_t a, b, p, q;
+    Vec3 middle, in;   // of a and b; from there to the top element's far corner
+
+    StrippedBlock() {
+        auto& [vertices, elements, face, faces] = fill.surface;
+        const std::size_t split = split_at_edge(fill.surface);
+        const std::uint32_t c = elements[split][2];
+        a = elements[split][0], b = elements[split][1], p = std::uint32_t(vertices.size()), q = p + 1;
+        middle = 0.5 * (vertices[a] + vertices[b]), in = vertices[c] - middle;
+        vertices.push_back(vertices[a] + 0.03 * (vertices[c] - vertices[a]));
+        vertices.push_back(vertices[b] + 0.03 * (vertices[c] - vertices[b]));
+        elements[split] = {p, q, c};
+        elements.push_back({a, b, q}), face.push_back(face[split]);
+        elements.push_back({a, q, p}), face.push_back(face[split]);
+    }
+};
+
 // Over a strip of thin elements along an edge, a trifle behind the plane of the side that meets it there: outside too.
 TEST(SurfaceContact, WhatHoversOverAThinStripIsOutside) {
-    SolidFill fill = fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, spacing, false);
-    auto& [vertices, elements, face, faces] = fill.surface;
-    const std::size_t split = split_at_edge(fill.surface);
-    const auto [a, b, c] = elements[split];
-    const auto p = std::uint32_t(vertices.size()), q = p + 1;
-    const Vec3 middle = 0.5 * (vertices[a] + vertices[b]), in = vertices[c] - middle;
-    vertices.push_back(vertices[a] + 0.03 * (vertices[c] - vertices[a]));
-    vertices.push_back(vertices[b] + 0.03 * (vertices[c] - vertices[b]));
-    elements[split] = {p, q, c};
-    elements.push_back({a, b, q}), face.push_back(face[split]);
-    elements.push_back({a, q, p}), face.push_back(face[split]);
-    Body block(fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
+    const StrippedBlock strip;
+    const Vec3 &middle = strip.middle, &in = strip.in;
+    Body block(strip.fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
     block.move({}), ball.move({});
     const auto& places = ball.surface->position;
     const Vec3 lowest =
@@ -207,6 +218,29 @@ TEST(SurfaceContact, WhatHoversOverAThinStripIsOutside) {
         make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
     contact->add_forces(0, 0);
     EXPECT_EQ(contact->report().touching, 0u);
+}
+
+// The strip has turned over, and the top hangs over the side: what stands before its edge, a trifle below its plane, is before the side, which
+// the strip keeps apart from the edge.
+TEST(SurfaceContact, WhatStandsBeforeAStripThatTurnedOverIsOutside) {
+    const StrippedBlock strip;
+    Body block(strip.fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
+    block.move({}), ball.move({});
+    const auto& places = ball.surface->position;
+    const Vec3 first =
+        *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.x < v.x; });
+    auto& corners = block.surface->position;
+    for (const std::uint32_t v : {strip.a, strip.b}) corners[v] += 0.06 * strip.in - Vec3{0, 0.02 * spacing, 0};
+    const Vec3 edge = 0.5 * (corners[strip.p] + corners[strip.q]);
+    ball.move(edge + spacing * Vec3{0.1, -0.01, 0} - first);
+    const auto contact =
+        make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
+    contact->add_forces(0, 0);
+    EXPECT_EQ(contact->report().touching, 0u);
+    ball.move(spacing * Vec3{-0.2, -0.1, 0});
+    contact->add_forces(0, 0);
+    EXPECT_GT(contact->report().touching, 0u);
+    EXPECT_LT(contact->report().deepest, 0.3 * spacing);
 }
 
 TEST(PlaneContact, PushesOutWhatIsBehind) {

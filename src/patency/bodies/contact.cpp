@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "patency/base/parallel.h"
 #include "patency/bodies/closest_point.h"
@@ -21,31 +22,69 @@ struct Hit {
     std::array<double, 3> weights{};   ///< of the element's corners
 };
 
+/// What a place x sees of an element: its nearest point.
+struct Sight {
+    std::array<double, 3> weights;   // of the element's corners
+    Vec3 way;                        // from x [m]
+
+    Sight(const SolidSurface& surface, std::uint32_t element, const Vec3& x) {
+        const auto& [ia, ib, ic] = surface.mesh().elements[element];
+        const Vec3 &a = surface.position[ia], &b = surface.position[ib], &c = surface.position[ic];
+        weights = surface.planar() ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
+        way = weights[0] * a + weights[1] * b + weights[2] * c - x;
+    }
+    /// How far x lies behind the plane of an element that faces like `facing`; negative: before it.
+    double behind(const SolidSurface& surface, std::uint32_t facing) const {
+        const Vec3 across = surface.area_vector(facing);
+        return dot(way, across) / norm(across);
+    }
+};
+
+/// How far x lies behind what it stands out of most beside a thin element, among elements that are not thin and as near but for its
+/// width: the element keeps them apart from the edge that they would share.
+double behind_beside(const SolidSurface& surface, const ContactSearch& search, std::uint32_t thin, const Vec3& x,
+                     double nearest, double behind) {
+    const auto& elements = surface.mesh().elements;
+    const auto& at = surface.elements_at();
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        longest = std::max(longest,
+                           norm(surface.position[elements[thin][k]] - surface.position[elements[thin][(k + 1) % 3]]));
+    for (const std::uint32_t corner : elements[thin])
+        for (const std::uint32_t* e = at.begin(corner); e < at.end(corner); ++e) {
+            if (search.facing(*e) != *e) continue;
+            const Sight sight(surface, *e, x);
+            if (norm(sight.way) > nearest + ContactSearch::thin * longest) continue;
+            if (const double here = sight.behind(surface, *e); std::abs(here) > std::abs(behind)) behind = here;
+        }
+    return behind;
+}
+
 /// A vertex of one surface against the elements of another, the depth negative outside; clearance: how far it is from them at least, if it is not in.
 ///                                                                                             THEORY (21.5)
 Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search,
              double& clearance) {
     const Vec3& x = own.position[vertex];
-    const auto& mesh = other.mesh();
-    double nearest = search.reach(), side = 0;
+    double nearest = search.reach(), behind = 0;
     Hit hit;
-    bool is_inside = false;
+    std::optional<std::uint32_t> thin;   // among the nearest
     for (const auto* near = search.candidates().begin(vertex); near < search.candidates().end(vertex); ++near) {
         if (near->distance - search.moved() > nearest * (1 + 1e-9)) break;   // nor can those behind it be nearer
         const std::uint32_t e = near->element;
-        const auto& [ia, ib, ic] = mesh.elements[e];
-        const Vec3 &a = other.position[ia], &b = other.position[ib], &c = other.position[ic];
-        const auto weights = other.planar() ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
-        const Vec3 way = weights[0] * a + weights[1] * b + weights[2] * c - x;
-        const double distance = norm(way);
-        const Vec3 across = other.area_vector(search.facing(e));
-        const double out = dot(way, across) / norm(across);   // positive: x lies behind the element
+        const Sight sight(other, e, x);
+        const double distance = norm(sight.way), here = sight.behind(other, search.facing(e));
         // Where an edge or a corner is nearest its elements tie, and the one that x stands out of most tells the side.
         const bool is_tie = std::abs(distance - nearest) <= 1e-9 * nearest;
-        if (is_tie ? std::abs(out) <= side : distance > nearest) continue;
-        nearest = distance, side = std::abs(out), is_inside = out > 0;
-        hit = {distance, distance > 0 ? way / distance : across / norm(across), e, weights};
+        if (!is_tie && distance > nearest) continue;
+        if (!is_tie) thin.reset();
+        if (search.facing(e) != e) thin = e;
+        if (is_tie && std::abs(here) <= std::abs(behind)) continue;
+        nearest = distance, behind = here;
+        hit = {distance, distance > 0 ? sight.way / distance : normalized(other.area_vector(search.facing(e))), e,
+               sight.weights};
     }
+    if (thin) behind = behind_beside(other, search, *thin, x, nearest, behind);
+    const bool is_inside = behind > 0;
     clearance = is_inside ? 0 : nearest;
     if (!is_inside) hit.depth *= -1, hit.normal *= -1;
     return hit;

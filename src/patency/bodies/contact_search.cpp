@@ -59,7 +59,6 @@ ContactSearch::ContactSearch(const SolidSurface& vertices, const SolidSurface& e
 }
 
 void ContactSearch::find_facing() {
-    constexpr double thin = 0.05;   // height over the longest side
     const auto& mesh = elements_.mesh();
     facing_.resize(mesh.elements.size());
     std::iota(facing_.begin(), facing_.end(), 0u);

@@ -25,6 +25,8 @@ public:
     /// The element whose normal tells where the outside of this one is: itself, or, where it is so thin that a bending of what carries it may
     /// turn it over, a neighbour that faced most nearly the same way in the reference configuration.
     std::uint32_t facing(std::uint32_t element) const { return facing_[element]; }
+    /// Height over the longest side below which an element is thin.
+    static constexpr double thin = 0.05;
     /// How deep a vertex may be in, and how far an element is looked for [m].
     double reach() const { return reach_; }
 
