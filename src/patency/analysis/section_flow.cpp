@@ -75,14 +75,13 @@ SectionShape shape_of(const SectionGrid& grid) {
 
 namespace {
 
-constexpr double reach_spacings = 2.6, slab_share = 0.75;   // of the reach: two layers on both sides
+constexpr double slab_share = 0.75;   // of the reach, 2.6 spacings: two layers on both sides
 
 /// The flow through a section from the particles whose feet on its plane lie in its squares.
 double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const SectionGrid& grid,
-                         const LocalLength& reach, const WallHint& wall) {
+                         const LocalLength& reach) {
     const SectionShape shape = shape_of(grid);
-    const double slab = slab_share * reach(shape.centre), spacing = reach(shape.centre) / reach_spacings;
-    const double half_diagonal = std::sqrt(0.5) * grid.side;
+    const double slab = slab_share * reach(shape.centre), half_diagonal = std::sqrt(0.5) * grid.side;
     const Buckets buckets(std::span(fluid.position.begin(), fluid.size()), frame, grid.place, slab + half_diagonal);
     std::vector<std::uint32_t> near;
     for (std::size_t k = 0; k < grid.place.size(); ++k) {
@@ -98,9 +97,6 @@ double flow_of_particles(const FluidParticles& fluid, const Frame& frame, const 
     for (std::uint32_t i : near) {
         const double s = dot(fluid.position[i] - shape.centre, grid.normal);
         members.push_back({i, s, (1 - std::abs(s) / slab) * fluid.volume[i]});
-        const Vec3& x = fluid.position[i];
-        if (const double value = wall.distance(x); !wall.velocity && value > -spacing)
-            members.back().see_wall({value, wall.normal(x)}, spacing);
     }
     return flow_of_section(shape, fluid, members);
 }
@@ -130,7 +126,7 @@ std::vector<SectionFlow> flow_through_sections(const FluidParticles& fluid, cons
             r.peak_velocity = std::max(r.peak_velocity, along);
         }
         r.pressure /= seen;   // nothing over nothing, where no blood was near
-        r.flow = seen > 0 ? flow_of_particles(fluid, frame, s, reach, wall) : NAN;
+        r.flow = seen > 0 ? flow_of_particles(fluid, frame, s, reach) : NAN;
         r.mean_velocity = r.flow / r.area;
         result[n] = r;
     });

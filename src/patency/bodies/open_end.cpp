@@ -28,21 +28,6 @@ double imposed_share(double s_in_spacings) {
     return q * q * (3 - 2 * q);
 }
 
-/// How steeply the flow through a section rises from the wall before a particle of the first layer, beyond a parabola of this slope
-/// over the squared distance from the centre [1/s]. From the velocity there and its gradient, and rest at the wall; no more than
-/// twice the gradient beyond it, for what begins as a plug knows nothing of a wall yet.
-double slope_beyond_parabola(const SectionShape& section, const FluidParticles& fluid, const OpenEnd::Member& m,
-                             double parabola) {
-    if (!(m.layer > 0)) return 0;
-    const double u = dot(fluid.velocity[m.index], section.normal),
-                 here = dot(fluid.velocity_gradient[m.index] * m.inward, section.normal);
-    if (here == 0) return 0;   // not known
-    const double more = 2 * (u / std::max(m.off_wall, 0.25 * m.layer) - here);
-    const Vec3 d = fluid.position[m.index] - m.off_wall * m.inward - section.centre,
-               across = m.inward - dot(m.inward, section.normal) * section.normal;
-    return here + std::clamp(more, -2 * std::abs(here), 2 * std::abs(here)) - 2 * parabola * dot(d, across);
-}
-
 /// The velocity of blood that is about to enter at the far end of a buffer: as inside, at the same place of the section.
 /// A copy of the parent's would close a loop that only adds up the errors of the buffer. Exact for quadratic profiles,
 /// with the mean of both ends' gradients.                                                           THEORY.md (8.7)
@@ -163,14 +148,7 @@ double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
             return dot(d, d) - m.s * m.s;
         },
         [&](const OpenEnd::Member& m) { return dot(fluid.velocity[m.index], section.normal); });
-    const double bend = reduce(
-        members.size(), 0.0,
-        [&](std::size_t k) {
-            return members[k].weight * members[k].layer *
-                   slope_beyond_parabola(section, fluid, members[k], sums.slope());
-        },
-        std::plus<>());
-    return section.area * (sums.value_at(section.mean_square) - (sums.w > 0 ? bend / sums.w / 24 : 0));
+    return section.area * sums.value_at(section.mean_square);
 }
 
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share) {

@@ -12,7 +12,6 @@
 
 #include "patency/bodies/fluid.h"
 #include "patency/physics/open_ends/sound_absorber.h"
-#include "patency/shape/signed_distance.h"
 
 namespace patency {
 
@@ -69,21 +68,11 @@ struct OpenEnd {
         return dot(d, d) - s * s < reach * reach;
     }
 
-    /// Found anew in every advection step, without walls: indices of particles in the buffer, and of those near the plane.
+    /// Found anew in every advection step: indices of particles in the buffer, and of those near the plane.
     struct Member {
         std::uint32_t index;
         double s;        ///< beyond the plane [m]
         double weight;   ///< for averages over the section
-        /// In the first layer at a wall that holds the blood, if somebody has looked: how thick the layer is, how far the particle
-        /// stands off the wall [m], and where away from it is. Of others the layer is 0.
-        double layer = 0, off_wall = 0;
-        Vec3 inward{};
-
-        /// Asks once where the wall is.
-        void see_wall(const DistanceSample& wall, double spacing) {
-            if (-wall.value >= spacing || wall.value > 0) return;
-            layer = spacing, off_wall = -wall.value, inward = -wall.gradient;
-        }
     };
     std::vector<Member> buffer, inside, section;
     std::vector<Member> entrance,
@@ -113,8 +102,8 @@ void fit_pressure(OpenEnd& end, double impedance, const std::function<double(std
 ///                                                                                              THEORY.md (8.10)
 void measure_flow(OpenEnd& end, const FluidParticles& fluid, double t, double share);
 
-/// Area [m^2] times the mean velocity [m/s] through a section, from particles that stand anywhere in it: their weighted mean, a
-/// fitted parabola for where they stand, and what else bends the profile at the wall.             THEORY.md (8.9)
+/// Area [m^2] times the mean velocity [m/s] through a section, from particles that stand anywhere in it: their weighted mean, and a
+/// fitted parabola for where they stand.                                                         THEORY.md (8.9)
 double flow_of_section(const SectionShape& section, const FluidParticles& fluid,
                        std::span<const OpenEnd::Member> members);
 

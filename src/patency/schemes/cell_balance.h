@@ -107,8 +107,7 @@ public:
     void start_ends_as(const CellBalance& other);
     /// Per patch, zero away from walls [Pa].                                                       THEORY.md (18.7)
     std::vector<Vec3> wall_shear_stress() const;
-    std::vector<double> patch_pressure() const;         ///< per patch: what its cell extrapolates to it [Pa]
-    double reference_speed() const { return speed_; }   ///< [m/s]
+    std::vector<double> patch_pressure() const;   ///< per patch: what its cell extrapolates to it [Pa]
     std::span<const Mat3> velocity_gradient() const { return grad_u_; }   ///< over the reference speed [1/m]
     std::span<const Vec3> pressure_gradient() const { return grad_p_; }   ///< over density and its square [1/m]
     /// The fields of another mesh, from the gradients here.

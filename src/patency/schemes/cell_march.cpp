@@ -161,7 +161,6 @@ double CellMarch::hand_over() {
     FluidParticles& fluid = domain_.fluid;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         fluid.velocity[i] = fields.velocity[i];
-        fluid.velocity_gradient[i] = balance_->reference_speed() * balance_->velocity_gradient()[i];
         fluid.pressure[i] = fields.pressure[i];
     }
     const auto states = balance_->end_states();

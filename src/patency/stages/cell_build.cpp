@@ -150,7 +150,7 @@ void start_ends(Scene& scene, std::span<const CellEndState> states) {
 void go_on(Scene& scene, const CellScene& solved) {
     scene.spacing_at = solved.spacing_at;
     place_cells(scene, solved.mesh);
-    set_flow(scene, *solved.balance);
+    set_flow(scene, solved.balance->fields());
     start_ends(scene, solved.balance->end_states());
     start_march(scene, solved.mesh);
 }
@@ -190,11 +190,9 @@ void place_cells(Scene& scene, const CellMesh& mesh) {
     }
 }
 
-void set_flow(Scene& scene, const CellBalance& balance) {
-    const CellFields fields = balance.fields();
+void set_flow(Scene& scene, const CellFields& fields) {
     for (std::size_t i = 0; i < fields.velocity.size(); ++i) {
         scene.fluid.velocity[i] = fields.velocity[i];
-        scene.fluid.velocity_gradient[i] = balance.reference_speed() * balance.velocity_gradient()[i];
         scene.fluid.pressure[i] = fields.pressure[i];
     }
 }

@@ -25,7 +25,7 @@ std::unique_ptr<Scene> build_cell_frame(const deck::Case& config);
 
 /// The cells as particles that stand where they are, with the wall's patches as feet of the wall's: what samples read.
 void place_cells(Scene& scene, const CellMesh& mesh);
-void set_flow(Scene& scene, const CellBalance& balance);
+void set_flow(Scene& scene, const CellFields& fields);
 /// What the cells say of the flow at the wall.
 WallParts wall_parts_of(const CellMesh& mesh, const CellBalance& balance);
 

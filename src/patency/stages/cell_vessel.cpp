@@ -29,7 +29,7 @@ std::unique_ptr<Scene> scene_of_cells(const CellScene& cells) {
     scene->frame = std::make_unique<Frame>(box.low, box.high, reach);
 
     place_cells(*scene, cells.mesh);
-    set_flow(*scene, *cells.balance);
+    set_flow(*scene, cells.balance->fields());
     scene->wall_parts = wall_parts_of(cells.mesh, *cells.balance);
     return scene;
 }
