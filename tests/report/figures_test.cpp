@@ -64,10 +64,28 @@ TEST(Figures, KeysSayTheirUnit) {
     EXPECT_EQ(measure_of("velocity_m_per_s").unit, "m/s");
     EXPECT_EQ(measure_of("largest_von_mises_pa").unit, "kPa");
     EXPECT_EQ(measure_of("kinetic_to_internal").unit, "");
-    EXPECT_EQ(words_of("largest_von_mises_pa"), "Largest von mises");
-    EXPECT_EQ(words_of("kinetic_to_internal"), "Kinetic to internal");
+    EXPECT_EQ(words_of("largest_von_mises_pa"), "Largest von Mises stress");
+    EXPECT_EQ(words_of("kinetic_to_internal_wall"), "Kinetic over internal energy, wall");
+    EXPECT_EQ(lower_words_of("recoil_percent"), "recoil");
+    EXPECT_EQ(measure_of("largest_tool_pressure_pa").unit, "atm");
+    EXPECT_EQ(words_of("largest_tool_pressure_pa"), "Largest tool pressure");
     EXPECT_DOUBLE_EQ(4e-6 * measure_of("flow_m3_per_s").scale, 240);
     EXPECT_DOUBLE_EQ(2e-3 * measure_of("largest_displacement_m").scale, 2);
+}
+
+TEST(Figures, PressuresAreShownInAUnitOfTheirSize) {
+    const Measure kilopascals = measure_of("contact_pressure_pa");
+    EXPECT_EQ(at_size(kilopascals, 9e6).unit, "kPa");
+    EXPECT_EQ(at_size(kilopascals, 9e6).digits, 0);
+    EXPECT_EQ(at_size(kilopascals, 5e3).digits, 2);
+    EXPECT_EQ(at_size(kilopascals, 496e6).unit, "MPa");
+    EXPECT_DOUBLE_EQ(496e6 * at_size(kilopascals, 496e6).scale, 496);
+    EXPECT_EQ(at_size(measure_of("young_mpa"), 243'000).unit, "GPa");
+    EXPECT_DOUBLE_EQ(243'000 * at_size(measure_of("young_mpa"), 243'000).scale, 243);
+    EXPECT_EQ(at_size(as_mm, 5'000).unit, "mm");
+    EXPECT_EQ(at_size(as_mm, 0.0325).digits, 3);
+    EXPECT_EQ(at_size(as_mm, 0).digits, 2);
+    EXPECT_EQ(at_size(kilopascals, NAN).unit, "kPa");
 }
 
 }   // namespace

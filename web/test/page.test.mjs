@@ -93,7 +93,7 @@ describe("the page of a run of three parts", () => {
   it("says what everything is made of and who says so", async () => {
     const page = await browser.open(urlOf(run));
     const row = page.locator("#tables tr", { hasText: "coronary_wall" });
-    assert.match(await row.innerText(), /Young 1\.00 MPa.*arXiv/s);
+    assert.match(await row.innerText(), /Young's modulus 1\.00 MPa.*arXiv/s);
   });
 
   it("carries summary.json and the tables as they are", async () => {

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +20,7 @@ constexpr std::string_view dash = "<span class=\"none\">–</span>";
 struct Ending {
     std::string_view end;
     Measure measure;
+    std::size_t unit_length = end.size();   ///< what is no word of it
 };
 // The longest first, where one ends another.
 constexpr Ending endings[] = {
@@ -31,6 +34,7 @@ constexpr Ending endings[] = {
     {"_um", {"µm", 1, 1}},
     {"_percent", as_percent},
     {"_mpa", {"MPa", 1, 2}},
+    {"tool_pressure_pa", {"atm", 1 / 101'325.0, 1}, 3},
     {"_pa", {"kPa", 1e-3, 2}},
     {"_atm", {"atm", 1, 1}},
     {"_mmhg", {"mmHg", 1, 2}},
@@ -38,6 +42,23 @@ constexpr Ending endings[] = {
     {"_s", {"s", 1, 4}},
     {"_j", {"mJ", 1e3, 3}},
     {"_n", {"N", 1, 3}},
+};
+
+/// What keys cannot say as one would.
+struct Phrase {
+    std::string_view in_keys, said;
+};
+constexpr Phrase phrases[] = {
+    {"von mises", "von Mises stress"},
+    {"kinetic to internal", "kinetic over internal energy"},
+    {"internal energy stent", "internal energy, stent"},
+    {"internal energy wall", "internal energy, wall"},
+    {"drag loss to internal stent", "drag over internal energy, stent"},
+    {"penetration over spacing", "overlap over the struts' spacing"},
+    {"imbalance", "imbalance of energy"},
+    {"malapposed", "struts off the wall"},
+    {"young", "Young's modulus"},
+    {"poisson", "Poisson's ratio"},
 };
 
 /// Without the sign of a zero.
@@ -82,11 +103,30 @@ Measure measure_of(std::string_view key) {
 
 bool says_unit(std::string_view key) { return ending_of(key) != nullptr; }
 
-std::string words_of(std::string_view key) {
-    if (const Ending* ending = ending_of(key)) key.remove_suffix(ending->end.size());
+Measure at_size(Measure measure, double value) {
+    if (!std::isfinite(value)) return measure;
+    constexpr std::string_view pressures[] = {"kPa", "MPa", "GPa"};
+    for (std::size_t k = 0; k + 1 < std::size(pressures); ++k)
+        if (measure.unit == pressures[k] && std::abs(value * measure.scale) >= 10'000)
+            measure.unit = pressures[k + 1], measure.scale *= 1e-3;
+    const double shown = std::abs(value * measure.scale);
+    if (shown >= 100) measure.digits = 0;
+    if (shown > 0 && shown < 0.1) measure.digits = std::max(measure.digits, 3);
+    return measure;
+}
+
+std::string lower_words_of(std::string_view key) {
+    if (const Ending* ending = ending_of(key)) key.remove_suffix(ending->unit_length);
     std::string words(key);
-    for (char& c : words)
-        if (c == '_') c = ' ';
+    std::replace(words.begin(), words.end(), '_', ' ');
+    for (const Phrase& phrase : phrases)
+        if (const std::size_t at = words.find(phrase.in_keys); at != words.npos)
+            words.replace(at, phrase.in_keys.size(), phrase.said);
+    return words;
+}
+
+std::string words_of(std::string_view key) {
+    std::string words = lower_words_of(key);
     if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] = char(words[0] - 'a' + 'A');
     return words;
 }

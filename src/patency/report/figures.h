@@ -35,8 +35,12 @@ inline constexpr Measure as_across{"", 1, 1};
 /// By the end of its key, as all keys of summary.json carry their unit: "recoil_percent", "minimum_diameter_mm".
 Measure measure_of(std::string_view key);
 bool says_unit(std::string_view key);
-/// The key without its unit, in words: "recoil_percent" -> "Recoil".
+/// The measure that shows a number of this size best: Pa from kPa to GPa, no decimals where there are
+/// hundreds, three where there are hundredths.
+Measure at_size(Measure measure, double value);
+/// The key without its unit, in words: "recoil_percent" -> "Recoil", "young_mpa" -> "Young's modulus".
 std::string words_of(std::string_view key);
+std::string lower_words_of(std::string_view key);   ///< to go on with: "recoil"
 
 class Figures {
 public:

@@ -15,7 +15,8 @@ std::string static_section(const RunResults& results);    ///< pictures and curv
 std::string beat_section(const RunResults& results);      ///< of periodic flows: what the openings do in time
 std::string tables_section(
     const RunResults& results);   ///< lesions, flow split, the paper's table VI, stent, outlets, resolution
-std::string run_section(const RunResults& results);   ///< deck, versions, input hashes, times, downloads
+std::string deployment_tables(const RunResults& results);   ///< how the stent sits, stresses, energies, what it took
+std::string run_section(const RunResults& results);         ///< deck, versions, input hashes, times, downloads
 
 /// The lesion that the page is about: in the first flow, and where later flows find it again.
 struct Focus {

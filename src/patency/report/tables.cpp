@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "patency/report/figures.h"
 #include "patency/report/sections.h"
@@ -198,37 +197,6 @@ std::string outlet_table(const RunResults& results) {
     return table("What lies behind the openings", head, rows);
 }
 
-/// Every number below a part of the summary, whatever the run has found worth giving.
-void add_numbers(std::string& rows, const Figures& f, const Json& part, const std::string& path, const std::string& of,
-                 const Measure& inherited) {
-    for (const auto& [key, value] : part.items()) {
-        const Measure measure = says_unit(key)              ? measure_of(key)   // {"stress_pa": {"p50": 1, "p99": 2}}
-                                : value.is_number_integer() ? as_count
-                                                            : inherited;
-        if (value.is_number()) rows += table_row({escaped(of + words_of(key)), f.with_unit(path + step(key), measure)});
-        if (value.is_object()) add_numbers(rows, f, value, path + step(key), of + words_of(key) + ": ", measure);
-    }
-}
-
-/// Of the deployment either how the stent sits or what that took: stresses, energies, particles.
-std::string stent_table(const RunResults& results, const std::string& caption, bool is_of_effort) {
-    if (!results.has_deployment) return {};
-    const std::set<std::string> effort{"energies", "stresses", "particles", "spacing_mm", "mass_scaling", "steps"};
-    Json part;
-    for (const auto& [key, value] : (*results.summary)["deploy"].items())
-        if (effort.contains(key) == is_of_effort) part[key] = value;
-    std::string rows;
-    add_numbers(rows, Figures(*results.summary), part, "/deploy", "", as_ratio);
-    return rows.empty() ? "" : table(caption, {"Quantity", "Value"}, rows);
-}
-
-/// Metals are a million times as stiff as tissue: no decimals where there are hundreds.
-Measure of_material(const std::string& key, double value) {
-    Measure measure = measure_of(key);
-    if (std::abs(value * measure.scale) >= 100) measure.digits = 0;
-    return measure;
-}
-
 /// What everything is made of, and who says so.
 std::string material_table(const RunResults& results) {
     const Json& summary = *results.summary;
@@ -240,8 +208,9 @@ std::string material_table(const RunResults& results) {
         std::string numbers;
         for (const auto& [key, value] : summary["materials"][k].items())
             if (value.is_number())
-                numbers += fmt::format("{}<span class=\"whole\">{} {}</span>", numbers.empty() ? "" : ", ",
-                                       escaped(words_of(key)), f.with_unit(at + step(key), of_material(key, value)));
+                numbers +=
+                    fmt::format("{}<span class=\"whole\">{} {}</span>", numbers.empty() ? "" : ", ",
+                                escaped(words_of(key)), f.with_unit(at + step(key), at_size(measure_of(key), value)));
         rows += table_row({f.text(at + "/part"), f.text(at + "/what"), numbers,
                            "<span class=\"source\">" + f.text(at + "/source") + "</span>"});
     }
@@ -302,9 +271,9 @@ std::string tables_section(const RunResults& results) {
     std::string tables;
     if (!results.flows.empty()) tables += lesion_table(results) + split_table(results) + branch_table(results);
     tables += material_table(results);
-    tables += "<div class=\"small-tables\">\n" + stent_table(results, "Deployment", false);
+    tables += "<div class=\"small-tables\">\n" + deployment_tables(results);
     if (!results.flows.empty()) tables += paper_table(results) + outlet_table(results) + run_numbers(results);
-    tables += stent_table(results, "Stresses and energies of the deployment", true) + "</div>\n";
+    tables += "</div>\n";
     return "<section id=\"tables\">\n<h2>Numbers</h2>\n" + tables + "</section>\n";
 }
 
