@@ -195,5 +195,24 @@ TEST(Page, ACurveHasItsLesionAndItsLevel) {
     EXPECT_EQ(draw_curves({.x_label = "", .y_label = "", .curves = {}, .spans = {}, .least = {}, .levels = {}}), "");
 }
 
+/// Marks were counted up by a step that rounding swallowed, without end.
+TEST(Curves, WhatDiffersByRoundingAloneIsOneValue) {
+    const auto drawn = [](double first, double second) {
+        return draw_curves({.x_label = "mm",
+                            .y_label = "mmHg",
+                            .curves = {{.label = "", .style = "before", .x = {0, 10}, .y = {first, second}}},
+                            .spans = {},
+                            .levels = {}});
+    };
+    for (const double size : {1e-12, 0.5, 93.0, 1e9}) {
+        const std::string svg = drawn(size, std::nextafter(size, 2 * size));
+        EXPECT_LT(svg.size(), 6000u) << size;
+        EXPECT_TRUE(has(svg, "<path class=\"curve")) << size;
+    }
+    EXPECT_LT(drawn(0, 0).size(), 6000u);
+    EXPECT_TRUE(has(drawn(-1, 1), ">0.0<")) << drawn(-1, 1);
+    EXPECT_FALSE(has(drawn(-1, 1), "-0.0<"));
+}
+
 }   // namespace
 }   // namespace patency

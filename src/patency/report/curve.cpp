@@ -17,8 +17,10 @@ constexpr double width = 760, height = 260, left = 64, right = 14, top = 14, bot
 struct Axis {
     double low = INFINITY, high = -INFINITY, begin, end;   ///< begin and end on the page
     void include(double v) { low = std::min(low, v), high = std::max(high, v); }
+    /// What differs by rounding alone is one value: no step between marks could be told from it.
+    bool is_one_value() const { return !(high - low > 1e-9 * std::max(std::abs(low), std::abs(high))); }
     void widen(double share) {
-        const double margin = high > low ? share * (high - low) : std::max(share * std::abs(high), 1e-9);
+        const double margin = is_one_value() ? std::max(share * std::abs(high), 1e-9) : share * (high - low);
         low -= margin, high += margin;
     }
     double at(double v) const { return begin + (v - low) / (high - low) * (end - begin); }
@@ -30,24 +32,30 @@ struct Axis {
             if (factor * power >= raw) return factor * power;
         return 10 * power;
     }
+    template <class Draw>
+    void for_each_mark(Draw draw) const {   // draw(value, its label)
+        constexpr double rounding = 1e-9;
+        const double gap = step();
+        const int digits = std::max(0, int(-std::floor(std::log10(gap) + rounding)));
+        for (double n = std::ceil(low / gap - rounding); n * gap <= high + rounding * gap; ++n)
+            draw(n * gap, fmt::format("{:.{}f}", n * gap + 0.0, digits));   // no sign on a zero
+    }
 };
 
 std::string marks(const Axis& x, const Axis& y) {
     std::string svg;
-    const auto label = [](double v, double step) {
-        return fmt::format("{:.{}f}", v, std::max(0, int(-std::floor(std::log10(step) + 1e-9))));
-    };
-    for (double v = std::ceil(x.low / x.step()) * x.step(); v <= x.high + 1e-9; v += x.step())
+    x.for_each_mark([&](double v, const std::string& label) {
         svg += fmt::format(
             "<path class=\"grid\" d=\"M{0:.1f} {1} V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" "
             "text-anchor=\"middle\">{4}</text>\n",
-            x.at(v), top, height - bottom, height - bottom + 16, label(v, x.step()));
-    for (double v = std::ceil(y.low / y.step()) * y.step(); v <= y.high + 1e-12; v += y.step())
+            x.at(v), top, height - bottom, height - bottom + 16, label);
+    });
+    y.for_each_mark([&](double v, const std::string& label) {
         svg += fmt::format(
             "<path class=\"grid\" d=\"M{1} {0:.1f} H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" "
             "text-anchor=\"end\">{5}</text>\n",
-            y.at(v), left, width - right, left - 7, y.at(v) + 4,
-            label(std::abs(v) < 1e-9 * y.step() ? 0 : v, y.step()));
+            y.at(v), left, width - right, left - 7, y.at(v) + 4, label);
+    });
     return svg;
 }
 
@@ -69,7 +77,7 @@ std::string draw_curves(const CurvePlot& plot) {
     Axis x{.begin = left, .end = width - right}, y{.begin = height - bottom, .end = top};
     for (const PlotCurve& curve : plot.curves)
         for (std::size_t k = 0; k < curve.x.size(); ++k) x.include(curve.x[k]), y.include(curve.y[k]);
-    if (!(x.high > x.low)) return {};
+    if (!(x.high > x.low) || x.is_one_value()) return {};
     if (plot.least) y.include(*plot.least);
     y.widen(0.06);
     if (plot.has_points) x.widen(0.03);   // none on the edge
