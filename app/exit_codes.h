@@ -21,7 +21,7 @@ inline std::span<const ExitMeaning> exit_meanings() {
         {"6", "finished, but a bar or the convergence was missed"},
         {"7", "a file cannot be read or written"},
         {"8", "the checkpoint does not fit"},
-        {"130, 143", "interrupted; a checkpoint was written"},
+        {"130, 143", "interrupted; the next run goes on from a checkpoint, or begins a steady flow on cells anew"},
     };
     return meanings;
 }

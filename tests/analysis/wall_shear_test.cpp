@@ -211,6 +211,14 @@ TEST(WallShearMeans, OfASteadyStressHaveNoOscillation) {
     EXPECT_DOUBLE_EQ(means.rrt()[1], 0.5);
 }
 
+TEST(WallShearMeans, OfNoStressAreNumbersToo) {
+    WallShearMeans means;
+    means.add(std::vector<Vec3>{{0, 0, 0}, {NAN, 0, 0}}, 1);
+    EXPECT_EQ(means.tawss()[0], 0);
+    EXPECT_DOUBLE_EQ(means.rrt()[0], 1e6);
+    EXPECT_TRUE(std::isnan(means.rrt()[1]));
+}
+
 TEST(WallShearMeans, OfAStressThatTurnsRound) {
     WallShearMeans even, uneven;
     const std::vector<Vec3> to{{2, 0, 0}}, fro{{-2, 0, 0}};

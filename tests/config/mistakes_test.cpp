@@ -24,6 +24,17 @@ TEST(Mistakes, SpacingThatFollowsTheVessel) {
               only("19:21: numerics.smallest_spacing: is more than numerics.largest_spacing, 0.1 mm"));
 }
 
+TEST(Mistakes, ASettledFlowWithoutOpenings) {
+    const std::string report = mistakes_in(R"(version: 1
+geometry: {shape: {type: box, size: [1 mm, 1 mm, 0 mm], periodic: [true, true, false], planar: true}}
+blood: {density: 1060 kg/m^3, viscosity: 3.5 mPa s}
+initial: {velocity: taylor_green, speed: 0.33 m/s}
+numerics: {scheme: sph, spacing: 0.05 mm, reference_speed: 0.33 m/s, duration: 3 ms, convergence: {tolerance_percent: 1}}
+)");
+    EXPECT_NE(report.find("numerics.convergence: watches the openings, and this domain has none"), report.npos)
+        << report;
+}
+
 TEST(Mistakes, FlowsThatNobodyFollows) {
     EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  scheme: sph\n  without_rest: follow\n  spacing:")),
               only("17:17: numerics.without_rest: is for a steady flow of scheme cells"));

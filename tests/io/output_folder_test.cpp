@@ -58,12 +58,14 @@ TEST(OutputFolder, KnowsItsCheckpoints) {
 TEST(OutputFolder, ClearsResultsAndNothingElse) {
     const ScratchFolder scratch;
     const OutputFolder folder(scratch / "out");
-    for (std::string_view result : {"summary.json", "fluid.pvd", "checkpoint/flow.h5", "frames/fluid_000000.vtp"})
+    for (std::string_view result : {"summary.json", "fluid.pvd", "checkpoint/flow.h5", "frames/fluid_000000.vtp",
+                                    "probes.csv", "profile_middle.csv"})
         put(folder.file(result), "");
     put(folder.file("notes.txt"), "mine");
     folder.clear();
     EXPECT_FALSE(folder.has_checkpoint());
-    for (std::string_view result : {"summary.json", "fluid.pvd", "frames/fluid_000000.vtp"})
+    for (std::string_view result :
+         {"summary.json", "fluid.pvd", "frames/fluid_000000.vtp", "probes.csv", "profile_middle.csv"})
         EXPECT_FALSE(std::filesystem::exists(folder.file(result))) << result;
     EXPECT_EQ(contents_of(folder.file("notes.txt")), "mine");
     EXPECT_TRUE(is_output_folder(folder.root()));

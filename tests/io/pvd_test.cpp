@@ -19,6 +19,8 @@ TEST(Pvd, ListsFramesWithTheirTimes) {
         has(contents_of(folder / "fluid.pvd"),
             "<Collection>\n<DataSet timestep=\"0.1\" part=\"0\" file=\"frames/fluid_000000.vtp\"/>\n</Collection>"));
     EXPECT_EQ(series.size(), 1u);
+    EXPECT_TRUE(series.ends_at(0.1));
+    EXPECT_FALSE(series.ends_at(0.2));
 }
 
 TEST(Pvd, GoesOnFromTheCheckpointAsIfNothingHadHappened) {

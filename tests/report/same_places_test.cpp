@@ -56,6 +56,25 @@ TEST(SamePlaces, ReadsTheTreatedFlowWhereTheLesionWas) {
     EXPECT_EQ(place["branch"], "b");
 }
 
+TEST(SamePlaces, ALesionBeginsWhereItSaysOrHalfItsLengthBeforeItsThroat) {
+    Json lesion = before()["lesions"][0];
+    EXPECT_DOUBLE_EQ(start_arc_mm(lesion), 27);
+    lesion["start_arc_mm"] = 25;
+    EXPECT_DOUBLE_EQ(start_arc_mm(lesion), 25);
+}
+
+/// A cut may make the larger of two outlets the smaller: their names stay.
+TEST(SamePlaces, AnOutletIsFoundByItsName) {
+    const auto flow = [](const char* first, const char* second) {
+        return Json{{"openings",
+                     {{"inlet", {{"mean_pressure_pa", 1000.0}}}, {first, Json::object()}, {second, Json::object()}}}};
+    };
+    EXPECT_EQ(outlet_of_other(flow("a", "b"), flow("b", "a"), 1), 2);
+    EXPECT_EQ(outlet_of_other(flow("a", "b"), flow("b", "a"), 2), 1);
+    EXPECT_EQ(outlet_of_other(flow("a", "b"), flow("c", "d"), 2), 2);
+    EXPECT_EQ(outlet_of_other(Json::object(), flow("a", "b"), 2), 2);
+}
+
 TEST(SamePlaces, WithoutAColumnThereIsNoNumber) {
     CsvTable table = pullback(4);
     table.names.back() = "other";

@@ -54,6 +54,13 @@ TEST(CompleteOpenings, TheStateTellsTheFlowThroughTheInlet) {
                 0.279 / 0.123, 1e-9);
 }
 
+TEST(CompleteOpenings, ATunedOutletIsNoInletHoweverLarge) {
+    const deck::Case config = deck_with("");
+    EXPECT_EQ(inlet_area(config, {disc("inlet", 3e-3), disc("outlet_1", 5e-3), disc("outlet_3", 2e-3)}),
+              disc("inlet", 3e-3).area);
+    EXPECT_EQ(inlet_area(config, {disc("outlet_1", 5e-3)}), 0);
+}
+
 TEST(CompleteOpenings, WithoutAnInletTheFlowMustBeGiven) {
     deck::Case config = deck_with("");
     EXPECT_THROW(complete_openings(config, {y[1], y[2]}), DeckError);

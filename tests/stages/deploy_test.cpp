@@ -13,6 +13,7 @@
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "patency/stages/deploy_program.h"
+#include "patency/stages/deploy_state.h"
 #include "patency/stages/lumen_after.h"
 #include "patency/stages/vessel.h"
 #include "tests/io/scratch_folder.h"
@@ -122,6 +123,28 @@ TEST(DeployByContact, GoesOnWithTheSameBits) {
     constexpr std::size_t touched = 4, deepest = 8;
     EXPECT_GT(at_once.known.at(touched), 0);
     EXPECT_GT(at_once.known.at(deepest), 0);
+}
+
+/// One that comes as narrow as it enters is not crimped: it shortens from what it was.
+TEST(DeployByContact, KnowsHowLongAStentIsThatComesCrimped) {
+    const ScratchFolder inputs;
+    small_deployment(inputs.path());
+    const deck::Case config =
+        deck::read_case(inputs.path() / "case.yaml", {"deployment.crimped_diameter=2 mm", "deployment.predilation=null",
+                                                      "geometry.lesion.diameter_stenosis_percent=30"});
+    const Folder out;
+    const OutputFolder folder(out.path);
+    int steps = 0;
+    EXPECT_FALSE(run_deploy(config, {.folder = folder, .interrupted = [&] { return ++steps == 3; }}));
+    const auto known = CheckpointReader(folder.checkpoint("deploy")).read<std::vector<double>>("known");
+    EXPECT_NEAR(known.at(0), 1.2e-3, 0.03e-3);   // length and diameter
+    EXPECT_NEAR(known.at(1), 2e-3, 0.02e-3);
+}
+
+TEST(DeployState, AForceOnAVertexIsAllThatPushesOnIt) {
+    const auto forces = forces_on_vertices({{7, {1, 0, 0}}, {3, {0, 2, 0}}, {7, {0, 0, 2}}});
+    ASSERT_EQ(forces.size(), 2u);
+    EXPECT_EQ(forces.at(7), (Vec3{1, 0, 2}));
 }
 
 TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {

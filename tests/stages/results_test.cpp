@@ -116,10 +116,29 @@ TEST(FlowRecorder, rows_of_waveforms_add_up_to_what_flowed) {
     EXPECT_NEAR(volume, scene->laws[1].volume_out, 1e-12 * volume);   // sums of as many differences as rows
 }
 
+/// A row stands at the middle of what it is a mean of, which may lie before a checkpoint that knows nothing of it.
+TEST(FlowRecorder, a_state_tells_which_rows_it_has_written) {
+    ChannelDeck deck;
+    deck.duration = "4 s";   // so that steps are many in a row
+    const auto scene = build_scene(parsed(deck));
+    FlowRecorder recorder(*scene);
+    std::vector<double> rows;
+    recorder.write_row = [&](std::size_t, std::span<const double> row) { rows.push_back(row[0]); };
+    std::vector<std::pair<double, std::size_t>> states;   // after every step
+    advance(*scene, {.until = 0.02, .observe = [&](const Scene& s, const FlowStep&) {
+                         recorder.observe(s, s.time >= 0.02);
+                         states.push_back({recorder.last_row_of(0, s.time), rows.size()});
+                     }});
+    ASSERT_GT(rows.size(), 2u);
+    ASSERT_GT(states.size(), 4 * rows.size());
+    for (const auto& [last, written] : states)
+        EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [&](double time) { return time <= last; }), written);
+}
+
 TEST(FlowRecorder, a_profile_is_written_at_its_time_and_only_inside) {
     ChannelDeck deck;
     deck.more = R"(output:
-  profiles: [{name: middle, from: ["2 mm", "-0.5 mm", "0 mm"], to: ["2 mm", "1.5 mm", "0 mm"], points: 9, times: ["3 ms"]}]
+  profiles: [{name: middle, from: ["2 mm", "-0.5 mm", "0 mm"], to: ["2 mm", "1.5 mm", "0 mm"], points: 9, times: ["0 s", "3 ms"]}]
 )";
     const auto scene = build_scene(parsed(deck));
     FlowRecorder recorder(*scene);
@@ -127,6 +146,10 @@ TEST(FlowRecorder, a_profile_is_written_at_its_time_and_only_inside) {
     recorder.write_row = [&](std::size_t table, std::span<const double> row) {
         if (table == 1) rows.emplace_back(row.begin(), row.end());
     };
+    recorder.begin(*scene);
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_EQ(rows.front()[0], 0);
+    rows.clear();
     FlowRun run{.until = 0.01, .exact_times = recorder.exact_times()};
     run.observe = [&](const Scene& s, const FlowStep&) { recorder.observe(s, s.time >= 0.01); };
     advance(*scene, run);

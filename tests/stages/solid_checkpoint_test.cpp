@@ -83,6 +83,25 @@ TEST_P(Stopped, GoOnWithTheSameBits) {
     EXPECT_GE(frames, 4u);
 }
 
+/// 50 ms in rows of 0.25 ms and frames every 6.25 ms: multiples of both that differ by round-off are one time.
+TEST(RunSolids, NoRowAndNoFrameIsLostToRoundOff) {
+    std::string text = block;
+    text.replace(text.find("duration: 2 ms"), 14, "duration: 50 ms");
+    text.replace(text.find("interval: 0.7 ms"), 16, "interval: 6.25 ms");
+    const std::filesystem::path root =
+        std::filesystem::temp_directory_path() / ("patency_rows_" + std::to_string(::getpid()));
+    {
+        const OutputFolder folder(root);
+        EXPECT_TRUE(run_solids(deck::parse_case(text), {.folder = folder}));
+    }
+    const std::string rows = read_file(root / "energies.csv"), frames = read_file(root / "block.pvd");
+    EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 201);
+    std::size_t count = 0;
+    for (std::size_t at = frames.find("<DataSet"); at != frames.npos; at = frames.find("<DataSet", at + 1)) ++count;
+    EXPECT_EQ(count, 9u);
+    std::filesystem::remove_all(root);
+}
+
 TEST_P(Stopped, AnotherDeckDoesNotGoOn) {
     run("deck", {5}, 1);
     deck::Case other = deck::parse_case(GetParam());

@@ -274,6 +274,51 @@ TEST(RunFlow, AVesselThatIsInterruptedGoesOnToTheSameBytes) {
     for (const std::string& name : names) EXPECT_EQ(text_of(folder.path / "out" / name), whole[name]) << name;
 }
 
+// Centrelines tell a network's narrowest place a little narrower than its file does: the cells must not depend on it.
+TEST(RunFlow, APulseOnTheCellsOfANetworkGoesOnToTheSameBytes) {
+    Folder folder;
+    narrowed_tube(folder.path / "deck", "duration: \"20 ms\", scheme: cells");
+    const deck::Case config = deck::read_case(
+        folder.path / "deck/tube.yaml",
+        {"case={name: pulse, mode: periodic, period: 20 ms}", "numerics.spacing=null", "numerics.across=6",
+         "numerics.steps_per_period=20", "geometry.lesion.diameter_stenosis_percent=50"});
+    const OutputFolder whole(folder.path / "whole"), parts(folder.path / "parts");
+    run_flow(config, {.folder = whole});
+    int steps = 0, pauses = 0;
+    while (run_flow(config, {.folder = parts, .interrupted = [&] { return ++steps % 100 == 3 || steps % 100 == 6; }}) ==
+               Outcome::interrupted &&
+           pauses < 50)
+        ++pauses;
+    for (const char* name : {"summary.json", "waveforms.csv", "pullback.csv"})
+        EXPECT_EQ(text_of(whole.file(name)), text_of(parts.file(name))) << name;
+    EXPECT_GT(pauses, 0);
+}
+
+TEST(RunFlow, OneThatHasSettledIsNotComputedOn) {
+    Folder folder;
+    const deck::Case config = narrowed_tube(
+        folder.path / "deck", "duration: \"1 s\", convergence: {tolerance_percent: 10, window: \"1 ms\"}");
+    const OutputFolder out(folder.path / "out");
+    EXPECT_EQ(run_flow(config, {.folder = out}), Outcome::done);
+    const std::string summary = text_of(out.file("summary.json")), waveforms = text_of(out.file("waveforms.csv"));
+    EXPECT_EQ(run_flow(config, {.folder = out}), Outcome::done);
+    EXPECT_EQ(text_of(out.file("summary.json")), summary);
+    EXPECT_EQ(text_of(out.file("waveforms.csv")), waveforms);
+}
+
+TEST(RunFlow, AVesselTooShortForSectionsHasResultsWithoutThem) {
+    Folder folder;
+    narrowed_tube(folder.path / "deck", "duration: \"1 s\", scheme: cells");
+    std::ofstream(folder.path / "deck/tube.json") << R"({"unit": "mm", "blend_width_k": 0.1,
+  "tubes": [{"name": "tube", "points": [[-2, 0, 0, 1.5], [1, 0, 0, 1.5], [4, 0, 0, 1.5]]}],
+  "ends": {"inlet": {"point": [0, 0, 0], "outward_normal": [-1, 0, 0], "radius": 1.5},
+           "outlet": {"point": [2, 0, 0], "outward_normal": [1, 0, 0], "radius": 1.5}}})";
+    const deck::Case config = deck::read_case(folder.path / "deck/tube.yaml",
+                                              {"geometry.lesion=null", "numerics.spacing=null", "numerics.across=6"});
+    EXPECT_EQ(run_flow(config, {.folder = OutputFolder(folder.path / "out")}), Outcome::done);
+    EXPECT_TRUE(fs::exists(folder.path / "out/centreline.vtp"));
+}
+
 TEST(RunFlow, CellsTellAVesselsFlowLikeParticles) {
     Folder folder;
     deck::Case config = narrowed_tube(folder.path / "deck", "duration: \"1 s\", scheme: cells");

@@ -24,7 +24,11 @@ export class Curves {
     const curves = new Curves(model, onHover);
     for (const flow of model.flows) {
       const file = model.files.find(({ name }) => name === flow.pullback);
-      if (file) curves.stations.set(flow.key, readStations(new TextDecoder().decode(await readBytes(file.data))));
+      if (!file) continue;
+      // Outlets are numbered by their areas, which may come in another order after a cut: here they have the first flow's numbers.
+      const number = (own: number) => model.outlets.indexOf(flow.outlets[own - 1] ?? "") + 1 || own;
+      const stations = readStations(new TextDecoder().decode(await readBytes(file.data)));
+      curves.stations.set(flow.key, stations.map((station) => ({ ...station, outlet: number(station.outlet) })));
     }
     if (curves.stations.size === 0) return undefined;
     const known = [...curves.stations.values()].flat();

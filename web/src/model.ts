@@ -37,6 +37,7 @@ export interface Flow {
   pieces: Partial<Record<PieceName, PieceAbout>>;
   lesions: Lesion[];
   pullback: string | null;
+  outlets: string[]; // in the order of their numbers in the pullback
 }
 export type PieceName = "wall" | "cut" | "streamlines";
 

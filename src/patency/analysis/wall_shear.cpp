@@ -103,7 +103,8 @@ std::vector<double> WallShearMeans::osi() const {
 
 std::vector<double> WallShearMeans::rrt() const {   // (1 - 2 OSI) TAWSS is the magnitude of the mean
     std::vector<double> result;
-    for (const Vec3& sum : vector_) result.push_back(time_ / norm(sum));
+    constexpr double least = 1e-6;   // Pa: of a wall that slips, or where the mean cancels, a number still
+    for (const Vec3& sum : vector_) result.push_back(time_ / std::max(norm(sum), least * time_));
     return result;
 }
 

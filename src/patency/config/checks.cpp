@@ -151,6 +151,8 @@ private:
 
     void check_numerics() {
         const Numerics& n = case_.numerics;
+        expect(!n.convergence || !case_.openings.empty(), "numerics.convergence",
+               "watches the openings, and this domain has none; give a duration alone");
         expect(!n.across || case_.scheme() == SchemeName::cells, "numerics.across",
                "is for scheme cells; moving particles need one spacing everywhere, numerics.spacing",
                {"numerics.scheme"});

@@ -103,8 +103,11 @@ void OutputFolder::clear() const {
         make_folder(root_ / folder);
     }
     for (std::string_view name : result_files) fs::remove(root_ / name, error);
-    for (const fs::directory_entry& entry : fs::directory_iterator(root_))
-        if (entry.path().extension() == ".pvd") fs::remove(entry.path(), error);
+    for (const fs::directory_entry& entry : fs::directory_iterator(root_)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_named_by_deck = name == "probes.csv" || (name.starts_with("profile_") && name.ends_with(".csv"));
+        if (is_named_by_deck || entry.path().extension() == ".pvd") fs::remove(entry.path(), error);
+    }
 }
 
 bool is_output_folder(const fs::path& root) {

@@ -29,6 +29,7 @@ public:
     /// on disk is replaced as a whole: readers never see half of it. Throws FileError.
     void add(double time, const std::filesystem::path& file);
 
+    bool ends_at(double time) const { return !frames_.empty() && frames_.back().time == time; }
     std::size_t size() const { return frames_.size(); }   ///< frames so far: the number of the next one
 
 private:

@@ -12,6 +12,7 @@
 
 #include "patency/io/encode.h"
 #include "patency/report/colours.h"
+#include "patency/report/same_places.h"
 #include "patency/report/view.h"
 #include "patency/shape/decimate.h"
 
@@ -106,12 +107,12 @@ Json add(PageData& page, const Piece& piece) {
 
 /// The arcs that matter along the line that passes a lesion [mm].
 Json lesion_model(const Json& lesion) {
-    const double throat = lesion.value("throat_arc_mm", 0.0), half = 0.5 * lesion.value("length_mm", 0.0);
+    const double start = start_arc_mm(lesion), end = start + lesion.value("length_mm", 0.0);
     return {{"branch", lesion.value("branch", "")},
-            {"throat_mm", throat},
-            {"start_mm", throat - half},
-            {"end_mm", throat + half},
-            {"read_mm", lesion.value("read_arc_mm", throat + half)},
+            {"throat_mm", lesion.value("throat_arc_mm", 0.0)},
+            {"start_mm", start},
+            {"end_mm", end},
+            {"read_mm", lesion.value("read_arc_mm", end)},
             {"flow_m3_per_s", lesion.value("flow_m3_per_s", 0.0)}};
 }
 
@@ -218,6 +219,7 @@ PageData make_page_data(const RunResults& results) {
             page.blobs.push_back({id, base64(deflated(table.text))});
             model["files"].push_back({{"name", table.name}, {"data", id}});
         }
+        part["outlets"] = outlet_names(results.part(flow));
         part["pullback"] = flow.pullback ? Json(flow.prefix + "pullback.csv") : Json(nullptr);
         model["flows"].push_back(std::move(part));
     }

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include "patency/report/results.h"
 
 namespace patency {
 
@@ -43,7 +47,7 @@ Json at_lesion(const Json& lesion, double outlet, const Json& after, const CsvTa
     const double throat = 1e-3 * lesion.value("throat_arc_mm", 0.0), length = 1e-3 * lesion.value("length_mm", 0.0),
                  read = 1e-3 * lesion.value("read_arc_mm", 0.0);
     const auto at = [&](double arc, const char* column) { return value_at(pullback, outlet, arc, column); };
-    const auto first = at(throat - length / 2, "pressure_pa"), last = at(read, "pressure_pa");
+    const auto first = at(1e-3 * start_arc_mm(lesion), "pressure_pa"), last = at(read, "pressure_pa");
     const auto proximal = at(throat - length, "pressure_pa"), distal = at(throat + length, "pressure_pa");
     const double level = lowest_outlet(after);
     const bool has_ratio = proximal && distal && std::isfinite(level) && *proximal > level;
@@ -60,6 +64,18 @@ Json at_lesion(const Json& lesion, double outlet, const Json& after, const CsvTa
 }
 
 }   // namespace
+
+double start_arc_mm(const Json& lesion) {
+    return lesion.value("start_arc_mm", lesion.value("throat_arc_mm", 0.0) - 0.5 * lesion.value("length_mm", 0.0));
+}
+
+double outlet_of_other(const Json& flow, const Json& other, double outlet) {
+    const std::vector<std::string> own = outlet_names(flow), names = outlet_names(other);
+    const auto number = std::size_t(outlet);
+    const auto found =
+        number < 1 || number > own.size() ? names.end() : std::find(names.begin(), names.end(), own[number - 1]);
+    return found == names.end() ? outlet : double(found - names.begin() + 1);
+}
 
 double outlet_through(const CsvTable& pullback, const Json& lesion) {
     const auto *arc = pullback.find("arc_m"), *line = pullback.find("outlet"), *flow = pullback.find("flow_m3_per_s");
@@ -78,8 +94,10 @@ double outlet_through(const CsvTable& pullback, const Json& lesion) {
 Json at_lesions_of(const Json& before, const CsvTable& pullback_before, const Json& after,
                    const CsvTable& pullback_after) {
     Json places = Json::array();
-    for (const Json& lesion : before["lesions"])
-        places.push_back(at_lesion(lesion, outlet_through(pullback_before, lesion), after, pullback_after));
+    for (const Json& lesion : before["lesions"]) {
+        const double outlet = outlet_of_other(before, after, outlet_through(pullback_before, lesion));
+        places.push_back(at_lesion(lesion, outlet, after, pullback_after));
+    }
     return places;
 }
 

@@ -12,9 +12,15 @@ namespace patency {
 /// throat, the one with the lesion's flow. 1 if there is none.
 double outlet_through(const CsvTable& pullback, const nlohmann::ordered_json& lesion);
 
+/// Where a lesion of a flow's part of summary.json begins [mm].
+double start_arc_mm(const nlohmann::ordered_json& lesion);
+
+/// The number that an outlet of one flow has in another: openings are numbered by their areas, which a cut may have changed.
+double outlet_of_other(const nlohmann::ordered_json& flow, const nlohmann::ordered_json& other, double outlet);
+
 /// For each of `before`'s lesions, `after`'s flow at the same arcs of the same line: branch, arcs, flow, drop, velocities, ratio of gauge
 /// pressures and FFR under the keys that lesions have, for summary.json (after.at_lesions). Arguments: parts of summary.json and their
-/// pullback.csv. The drop begins half the lesion's length before its throat.
+/// pullback.csv. The drop begins where the lesion did.
 nlohmann::ordered_json at_lesions_of(const nlohmann::ordered_json& before, const CsvTable& pullback_before,
                                      const nlohmann::ordered_json& after, const CsvTable& pullback_after);
 

@@ -104,7 +104,8 @@ std::string curves(const RunResults& results) {
     for (const FlowPart& flow : results.flows) {
         if (!flow.pullback) continue;
         for (auto& [plot, column, scale] : {std::tuple{&pressure, "pressure_pa", as_mmHg.scale}, {&ffr, "ffr", 1.0}}) {
-            plot->curves.push_back(curve_of(*flow.pullback, outlet, column, scale));
+            const double own = outlet_of_other(part, results.part(flow), outlet);
+            plot->curves.push_back(curve_of(*flow.pullback, own, column, scale));
             plot->curves.back().style = flow.key;
         }
         legend += fmt::format("<span class=\"key {}\">{}</span> ", flow.key, flow.title);

@@ -50,12 +50,18 @@ double flow_of_bed(deck::BedState state, double inlet_area) {
     return inlet_area * (state == deck::BedState::hyperaemic ? hyperaemic_velocity : resting_velocity);
 }
 
+double inlet_area(const deck::Case& config, const std::vector<Opening>& openings) {
+    double largest = 0;
+    for (const Opening& opening : openings)
+        if (!config.openings.at(opening.name).is_tuned()) largest = std::max(largest, opening.area);
+    return largest;
+}
+
 void complete_openings(deck::Case& config, const std::vector<Opening>& openings) {
     std::optional<BeatPressures> beat;
     const auto known_beat = [&]() -> const BeatPressures& { return beat ? *beat : beat.emplace(beat_of(config)); };
     std::vector<deck::Opening*> tuned;
     std::vector<double> diameters;
-    double inlet_area = 0;
     for (const Opening& opening : openings) {
         deck::Opening& said = config.openings.at(opening.name);
         if (said.has_aortic_pressure()) {
@@ -65,14 +71,11 @@ void complete_openings(deck::Case& config, const std::vector<Opening>& openings)
                 said.pressure = config.aorta.pressure;
         }
         if (said.has_muscle_of_aorta()) said.myocardial_pressure = table(known_beat().times, known_beat().ventricle);
-        if (said.is_tuned())
-            tuned.push_back(&said), diameters.push_back(2 * opening.radius);
-        else
-            inlet_area = std::max(inlet_area, opening.area);
+        if (said.is_tuned()) tuned.push_back(&said), diameters.push_back(2 * opening.radius);
     }
     if (tuned.empty()) return;
     const deck::Bed& bed = config.bed;
-    const double flow = bed.flow.value_or(flow_of_bed(bed.state, inlet_area));
+    const double flow = bed.flow.value_or(flow_of_bed(bed.state, inlet_area(config, openings)));
     if (!(flow > 0)) throw DeckError("bed.flow: is needed where no opening but tuned outlets lets blood in");
     const auto resistances =
         bed_resistances(diameters, {config.aorta.pressure.value(), bed.venous_pressure, flow, bed.murray_exponent});

@@ -12,6 +12,9 @@ namespace patency {
 /// What a bed takes of a vessel whose inlet has this area [m^2], if nobody says: [m^3/s].
 double flow_of_bed(deck::BedState state, double inlet_area);
 
+/// Of the largest opening that is no tuned outlet [m^2]; 0 if there is none.
+double inlet_area(const deck::Case& config, const std::vector<Opening>& openings);
+
 /// Gives what the deck leaves to its aorta and its bed: to openings of type pressure without a value the aorta's pressure, which pulses
 /// if the flow is periodic; to outlets of type resistance, rcr and coronary without numbers those that let the bed's flow through, and the
 /// venous pressure behind it; to coronary ones the pressure of the left ventricle's muscle. The flow is the deck's, or what the state of

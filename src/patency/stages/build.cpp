@@ -259,6 +259,7 @@ std::unique_ptr<Scene> build_frame(const deck::Case& config, const Vessel* known
         throw DeckError("wall.motion: walls that deform come with the solids; use rigid");
     if (config.has_vessel()) scene->vessel = known ? *known : read_vessel(config);
     scene->lumen = make_lumen(config, config.geometry.surface ? &*scene->vessel : nullptr);
+    scene->nominal_narrowest = scene->lumen.narrowest;
     complete_openings(scene->config, scene->lumen.openings);
     set_datum(*scene);
     if (scene->vessel) follow(*scene);

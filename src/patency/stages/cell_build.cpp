@@ -126,9 +126,11 @@ std::unique_ptr<Scene> build_frame_of_cells(const deck::Case& config) {
 CellMesh place_points(Scene& scene) {
     const deck::Numerics& numerics = scene.config.numerics;
     const Vessel* vessel = scene.vessel ? &*scene.vessel : nullptr;
+    Lumen lumen = scene.lumen;
+    lumen.narrowest = scene.nominal_narrowest;   // as make_solved_scene has it: a resumed run is on the same cells
     const CellPoints points = numerics.follows_vessel()
-                                  ? make_cell_points(scene.lumen, make_cell_spacing(scene.lumen, vessel, numerics))
-                                  : make_cell_points(scene.lumen, numerics.spacing);
+                                  ? make_cell_points(lumen, make_cell_spacing(lumen, vessel, numerics))
+                                  : make_cell_points(lumen, numerics.spacing);
     scene.spacing_at = points.spacing_at;
     CellMesh mesh = make_cell_mesh(points.point, points.spacing, scene.lumen);
     place_cells(scene, mesh);

@@ -88,6 +88,7 @@ public:
             if (!advance(phases[k])) return false;
             end(phases[k].phase);
         }
+        write_checkpoint();   // whatever becomes of what is made of it
         finish();
         return true;
     }
@@ -185,7 +186,10 @@ private:
 
     bool advance(const DeployProgram::Entry& entry) {
         const double row = program_.end() / looks;
-        if (time() == 0) look(row);
+        if (time() == 0) {
+            look(row);
+            marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;   // as it came
+        }
         while (time() < entry.end) {
             const double next = std::min(entry.end, row * (std::floor(time() / row * (1 + 1e-9)) + 1));
             bool is_stopped = false;
@@ -341,10 +345,8 @@ private:
             name_of(phase), 1e3 * time(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter,
             1e3 * profile_.most_diameter, 1e3 * profile_.length, scene_->solids.steps, watch_.wall()));
         if (phase == DeployPhase::crimp) expect_crimped();
-        if (phase <= DeployPhase::enter || marks_.crimped_length == 0) {
-            if (phase != DeployPhase::open)
-                marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
-        }
+        if (phase <= DeployPhase::enter)
+            marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
         if (phase == DeployPhase::hold && marks_.opened_diameter == 0)
             marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
         if (phase == DeployPhase::open && load_ && load_->stopped == INFINITY) {

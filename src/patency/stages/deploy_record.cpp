@@ -49,9 +49,10 @@ void DeployRecord::add(const DeployInstant& now, const StentProfile& profile) {
 
 void DeployRecord::add_frames(double time, const PolyData& stent, const PolyData& wall) {
     const auto write = [&](PvdWriter& to, const PolyData& data, const char* name) {
-        const auto file = frame_file(name, to.size());
+        const bool is_again = to.ends_at(time);   // with more to show
+        const auto file = frame_file(name, to.size() - is_again);
         write_polydata(folder_.root() / file, data, {.time = time});
-        to.add(time, file);
+        if (!is_again) to.add(time, file);
     };
     write(stent_, stent, "stent");
     write(wall_, wall, "wall");

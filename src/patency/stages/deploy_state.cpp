@@ -94,6 +94,12 @@ PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen) {
 
 PolyData wall_picture(SolidPart& wall) { return skin_of(wall); }
 
+std::map<std::uint32_t, Vec3> forces_on_vertices(const std::vector<Contact::Push>& pushes) {
+    std::map<std::uint32_t, Vec3> forces;
+    for (const Contact::Push& push : pushes) forces[push.vertex] += push.force;
+    return forces;
+}
+
 Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
                    const std::vector<Contact::Push>& pushes) {
     const std::vector<double> wall_stress = von_mises_of(wall);
@@ -112,9 +118,9 @@ Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, dou
     const SolidParticles& s = stent.body->particles();
     const std::vector<double> volume(s.volume.begin(), s.volume.end());
     std::vector<double> pressure, area;
-    for (const Contact::Push& push : pushes) {
-        const double a = stent.surface->area(push.vertex);
-        if (a > 0 && norm(push.force) > 0) pressure.push_back(norm(push.force) / a), area.push_back(a);
+    for (const auto& [vertex, force] : forces_on_vertices(pushes)) {
+        const double a = stent.surface->area(vertex);
+        if (a > 0 && norm(force) > 0) pressure.push_back(norm(force) / a), area.push_back(a);
     }
     return {{"wall_von_mises_pa", layers},
             {"wall_plastic_strain", strains},

@@ -2,6 +2,8 @@
 // A deployment at one moment, as numbers and as pictures: reads the bodies, changes nothing.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
@@ -26,6 +28,9 @@ BodyEnergy energy_of(SolidPart& part);
 PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen);
 /// The wall's faces: von Mises stress, displacement, layer.
 PolyData wall_picture(SolidPart& wall);
+
+/// What pushes on each of the stent's vertices: several of the wall's may push on one [N].
+std::map<std::uint32_t, Vec3> forces_on_vertices(const std::vector<Contact::Push>& pushes);
 
 /// Percentiles of the wall's von Mises stress along the stent, layer by layer; of the stent's plastic strain and stress; of the pressure on its outer face.
 nlohmann::ordered_json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,

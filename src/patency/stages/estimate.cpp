@@ -112,8 +112,7 @@ Estimate estimate_flow(const deck::Case& given, const Vessel& vessel, const Esti
     config.bed.murray_exponent += change.exponent;
     std::vector<Opening> openings;
     for (const SurfaceOpening& o : vessel.openings) openings.push_back(o.opening);
-    const double nominal_inlet = openings[0].area;
-    if (!config.bed.flow) config.bed.flow = flow_of_bed(config.bed.state, nominal_inlet);
+    if (!config.bed.flow) config.bed.flow = flow_of_bed(config.bed.state, inlet_area(config, openings));
     *config.bed.flow *= change.flow;
     complete_openings(config, openings);
 

@@ -14,6 +14,8 @@ namespace patency {
 
 namespace {
 
+std::vector<Vec3> places_of(const FluidParticles& fluid) { return {fluid.position.begin(), fluid.position.end()}; }
+
 void write_mark(CheckpointWriter& writer, const std::string& name, const FlowMark& mark) {
     writer.write(name + "/time", mark.time);
     writer.write(name + "/volume_out", mark.volume_out);
@@ -108,8 +110,12 @@ void write_flow_checkpoint(const std::filesystem::path& path, const CheckpointOr
 std::unique_ptr<Scene> read_scene(const CheckpointReader& checkpoint, const deck::Case& config) {
     const bool is_on_cells = config.scheme() == deck::SchemeName::cells;
     auto scene = is_on_cells ? build_cell_frame(config) : build_frame(config);
+    const std::vector<Vec3> cells = is_on_cells ? places_of(scene->fluid) : std::vector<Vec3>();
     checkpoint.read(scene->fluid, "fluid");
     checkpoint.read(scene->wall, "wall");
+    if (is_on_cells && places_of(scene->fluid) != cells)
+        throw CheckpointError(
+            "The checkpoint is of other cells than this deck makes here; give --fresh to begin anew.");
     NamedNumbers numbers = numbers_of(*scene);   // for the names
     for (auto& [name, values] : numbers.reals) values = checkpoint.read<std::vector<double>>("scene/" + name);
     for (auto& [name, values] : numbers.integers) values = checkpoint.read<std::vector<std::int64_t>>("scene/" + name);

@@ -72,6 +72,17 @@ FlowRecorder::FlowRecorder(const Scene& scene) : row_mark_(mark_flow(scene)) {
     std::sort(exact_times_.begin(), exact_times_.end());
 }
 
+void FlowRecorder::begin(const Scene& scene) {
+    const auto& profiles = scene.config.output.profiles;
+    for (std::size_t k = 0; k < profiles.size(); ++k)
+        if (std::find(profiles[k].times.begin(), profiles[k].times.end(), scene.time) != profiles[k].times.end())
+            write_profile(scene, k);
+}
+
+double FlowRecorder::last_row_of(std::size_t table, double now) const {
+    return table < first_profile_ ? last_row_ : now;
+}
+
 void FlowRecorder::observe(const Scene& scene, bool is_end) {
     // Counted in whole intervals, so that an interrupted run writes the same rows.
     if (std::floor(scene.time / row_interval_) > std::floor(last_row_ / row_interval_) || is_end) {

@@ -29,6 +29,10 @@ public:
 
     /// Times that steps must end at: profiles [s].
     const std::vector<double>& exact_times() const { return exact_times_; }
+    /// To be called once, before the first step of a run that is not resumed: profiles of that time.
+    void begin(const Scene& scene);
+    /// The largest time that a row of a table may stand at after what the state knows; `now`: the state's time [s].
+    double last_row_of(std::size_t table, double now) const;
     /// To be called after every step; is_end: there is no other.
     void observe(const Scene& scene, bool is_end);
 

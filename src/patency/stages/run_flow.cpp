@@ -103,7 +103,9 @@ private:
         const double now = scene_->time;
         for (const RecordedTable& table : recorder_->tables()) {
             const auto path = stage_.folder.file(table.name + ".csv");
-            tables_.push_back(reader ? CsvWriter::resumed(path, table.columns, now) : CsvWriter(path, table.columns));
+            tables_.push_back(reader
+                                  ? CsvWriter::resumed(path, table.columns, recorder_->last_row_of(tables_.size(), now))
+                                  : CsvWriter(path, table.columns));
         }
         recorder_->write_row = [this](std::size_t table, std::span<const double> values) {
             tables_.at(table).write_row(values);
@@ -124,11 +126,14 @@ private:
     }
 
     Outcome advance_to_end() {
-        if (!is_resumed_ && config_.output.interval) write_frame();
+        if (!is_resumed_) {
+            recorder_->begin(*scene_);
+            if (config_.output.interval) write_frame();
+        }
         FlowRun run{.until = config_.numerics.duration, .exact_times = exact_times()};
         run.interrupted = [this] { return is_at_end() || (stage_.interrupted && stage_.interrupted()); };
         run.observe = [this](const Scene&, const FlowStep&) { observe(); };
-        advance(*scene_, run);
+        if (!is_at_end()) advance(*scene_, run);   // or the last checkpoint is that of its end
         write_checkpoint();
         if (!is_at_end()) {
             say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", scene_->time));

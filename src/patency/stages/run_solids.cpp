@@ -85,8 +85,10 @@ private:
             const double until = std::min({next_row, next_frame, end});
             step_solids(*scene_, until);
             if (scene_->time == until) {
-                if (until == next_row || until == end) write_row();
-                if (until == next_frame || until == end) write_frames();
+                // Multiples of two intervals may be one time but for round-off.
+                const auto is_reached = [&](double next) { return until >= next * (1 - rounding) || until == end; };
+                if (is_reached(next_row)) write_row();
+                if (is_reached(next_frame)) write_frames();
             }
             if (stage_.progress) stage_.progress->update(progress());
             const bool is_interrupted = scene_->time < end && stage_.interrupted && stage_.interrupted();
@@ -103,9 +105,11 @@ private:
         return true;
     }
 
+    static constexpr double rounding = 1e-12;
+
     /// The first multiple of `interval` after a time that may be one itself, to round-off.
     static double next_after(double time, double interval) {
-        return interval * (std::floor(time / interval * (1 + 1e-12)) + 1);
+        return interval * (std::floor(time / interval * (1 + rounding)) + 1);
     }
 
     bool is_checkpoint_due() const {   // between steps, and clips none: when it is written changes no bit

@@ -28,7 +28,8 @@ struct Scene {
 
     deck::Case config;   ///< its pressures less the datum
     Lumen lumen{.distance = everywhere(), .openings = {}, .volume = 0, .wall_area = 0, .bounds = {}};
-    std::optional<Vessel> vessel{};       ///< followed; of surfaces and networks
+    double nominal_narrowest = 0;     ///< lumen.narrowest before centrelines told more: cells are as fine as that [m]
+    std::optional<Vessel> vessel{};   ///< followed; of surfaces and networks
     std::optional<Estimate> estimate{};   ///< of the vessel
     std::unique_ptr<Frame> frame;
     FluidParticles fluid;

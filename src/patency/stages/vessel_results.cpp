@@ -104,6 +104,7 @@ Json lesion_summary(const Scene& scene, const LesionFlow& l) {
     const EstimatedLesion& estimated = scene.estimate->lesions[l.number];
     return {{"branch", along.lines.branches[lesion.branch].name},
             {"throat_arc_mm", mm * lesion.throat_arc},
+            {"start_arc_mm", mm * lesion.start_arc},
             {"length_mm", mm * lesion.length()},
             {"diameter_stenosis_percent", 100 * lesion.diameter_stenosis},
             {"area_stenosis_percent", 100 * lesion.area_stenosis},
@@ -227,8 +228,10 @@ void write_centreline(const OutputFolder& folder, const Scene& scene, const Vess
         rate{"flow", "m^3/s"}, mean{"mean_velocity", "m/s"}, peak{"peak_velocity", "m/s"}, ffr{"ffr", "1"};
     IntegerArray branch{"branch_id"};
     for (std::size_t line = 0; line < along.lines.lines.size(); ++line) {
+        const auto stations = stations_along(along, recorder, flow, line);
+        if (stations.size() < 2) continue;   // no line
         std::vector<std::uint32_t>& cell = data.lines.emplace_back();
-        for (const StationFlow* s : stations_along(along, recorder, flow, line)) {
+        for (const StationFlow* s : stations) {
             const VesselStation& station = recorder.stations()[s->station];
             cell.push_back(std::uint32_t(data.points.size()));
             data.points.push_back(station.plane.centre);
@@ -249,6 +252,12 @@ void write_centreline(const OutputFolder& folder, const Scene& scene, const Vess
 }
 
 void write_streamlines(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder) {
+    PolyData data{.space = scene.vessel->checked.surface.space};
+    PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"};
+    if (recorder.stations().empty()) {   // a vessel too short for any: nowhere to begin
+        data.arrays = {velocity, pressure};
+        return write_polydata(folder.file("streamlines.vtp"), data);
+    }
     const WallHint hint = wall_hint(scene);
     const SectionPlane inlet = recorder.stations().front().plane;   // the inlet's branch is the first
     constexpr int seeds_across_radius = 4;
@@ -261,8 +270,6 @@ void write_streamlines(const OutputFolder& folder, const Scene& scene, const Ves
         .slowest = 1e-3 * scene.numerics.reference_speed,
         .reach = sampling_reach(scene),
         .is_inside = [&](const Vec3& x) { return hint.distance(x) < 0 && opening_beyond(scene.lumen, x) < 0; }};
-    PolyData data{.space = scene.vessel->checked.surface.space};
-    PointArray velocity{"velocity", "m/s", 3}, pressure{"pressure", "Pa"};
     for (const Streamline& line : trace_streamlines(scene.fluid, *scene.frame, seeds.place, rule, hint)) {
         if (line.points.size() < 2) continue;
         std::vector<std::uint32_t>& cell = data.lines.emplace_back();
@@ -311,8 +318,10 @@ void add_vessel_summary(Json& summary, const Scene& scene, const VesselRecorder&
     summary["gauge_pressure_ratio"] = flow.lesions.empty() ? Json(nullptr) : or_null(flow.lesions.front().gauge_ratio);
     summary["ffr"] = {{"lesion", or_null(flow.worst_ffr)}};
     if (!flow.worst_ffr)
-        summary["ffr"]["reason"] =
-            scene.config.aorta.pressure ? "no lesion was found" : "the deck gives no aortic pressure";
+        summary["ffr"]["reason"] = !scene.config.aorta.pressure ? "the deck gives no aortic pressure"
+                                   : scene.vessel->along->assessment.lesions.empty()
+                                       ? "no lesion was found"
+                                       : "the lesion's vessel is too short or too coarse for two sections along it";
     if (scene.config.aorta.pressure) {
         summary["aortic_pressure_pa"] = *scene.config.aorta.pressure;
         summary["pressure_level_pa"] = flow.level;   // what FFR adds to pressures
