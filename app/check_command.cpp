@@ -47,10 +47,23 @@ void print_cost(const FlowCost& cost) {
         fmt::print("  note: at least 12 particles across the narrowest place give a sensible answer\n");
 }
 
+void print_speed(double reynolds, double speed) {
+    constexpr double laminar = 2300;   // of a tube; behind a lesion jets break up at a quarter of it
+    fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", reynolds);
+    fmt::print("  largest speed        {:.3g} m/s\n", speed);
+    if (reynolds > laminar)
+        fmt::print(
+            "  note: blood in a vessel is turbulent from about {:.0f} on, which this program does not compute; are the "
+            "units of flows, "
+            "pressures and viscosity right?\n",
+            laminar);
+}
+
 void print_cell_plan(const std::string& path, const CellPlan& plan) {
     fmt::print("{}: the deck is right\n", path);
     fmt::print("  scheme               cells: a {} flow through a rigid lumen, on particles that stand still\n",
                plan.steps > 0 ? "periodic" : "steady");
+    print_speed(plan.reynolds, plan.speed);
     if (plan.steps > 0) fmt::print("  steps in time        {:.0f}\n", plan.steps);
     fmt::print("  spacing              {:.3g} to {:.3g} mm\n", 1e3 * plan.finest, 1e3 * plan.coarsest);
     fmt::print("  cells                about {:.3g}; {:.1f} across the narrowest place\n", plan.cells,
@@ -59,8 +72,7 @@ void print_cell_plan(const std::string& path, const CellPlan& plan) {
 
 void print_flow_plan(const std::string& path, const FlowPlan& plan) {
     fmt::print("{}: the deck is right\n", path);
-    fmt::print("  Reynolds number      {:.3g} (mean speed, narrowest width)\n", plan.reynolds);
-    fmt::print("  largest speed        {:.3g} m/s\n", plan.speed);
+    print_speed(plan.reynolds, plan.speed);
     fmt::print("  sound speed          {:.3g} m/s\n", plan.sound_speed);
     fmt::print("  steps                {:.3g} s advection, {:.3g} s acoustic, about {:.3g} acoustic steps\n",
                plan.advection_step, plan.acoustic_step, plan.acoustic_steps);

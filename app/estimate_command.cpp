@@ -14,6 +14,7 @@
 #include "patency/io/output_folder.h"
 #include "patency/io/summary.h"
 #include "patency/stages/estimate_results.h"
+#include "stage_runner.h"
 
 namespace patency::app {
 
@@ -68,6 +69,7 @@ void print(const Vessel& vessel, const Estimate& e, const std::optional<Estimate
 void write(const EstimateOptions& o, const deck::Case& config, const Vessel& vessel, const Estimate& e,
            const std::optional<EstimateBand>& band) {
     const OutputFolder folder(o.out);
+    expect_no_results_but_estimates(folder);
     folder.clear();
     write_summary(folder.file("summary.json"), estimate_summary(config, vessel, e, band));
     const Pullback p = estimate_pullback(vessel, e);

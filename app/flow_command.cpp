@@ -25,6 +25,7 @@ ExitCode run(const FlowOptions& options) {
     const int threads = options.deck.apply_threads(config);
     const OutputFolder folder(options.out);
     const bool goes_on = !options.fresh && folder.has_checkpoint("flow");
+    if (!options.fresh && !goes_on) expect_no_other_results(folder, config);
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));

@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
     ExitCode exit_code = ExitCode::ok;
     CLI::App program("Blood flow in a coronary artery by particle methods. Not a medical device.", "patency");
     program.require_subcommand(1);
+    program.set_version_flag("--version", std::string("patency " PATENCY_VERSION));
     const app::Command commands(&program);
     app::add_check_command(commands, exit_code);
     app::add_inspect_command(commands, exit_code);

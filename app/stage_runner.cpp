@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "patency/io/flow_table.h"
@@ -12,6 +13,7 @@
 #include "patency/io/log_file.h"
 #include "patency/io/summary.h"
 #include "patency/stages/deploy.h"
+#include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/run_flow.h"
 
 namespace patency::app {
@@ -23,6 +25,40 @@ void print_log(LogLevel level, std::string_view line) {
 }
 
 }   // namespace
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a folder's results say that they were made from; null where there are none, or none that cost more than a second.
+Json origin_of_results(const OutputFolder& folder) {
+    for (const char* name : {"origin.json", "sweep.json"})
+        if (std::filesystem::exists(folder.file(name))) return Json(name);
+    if (!std::filesystem::exists(folder.file("summary.json"))) return nullptr;
+    const Json summary = read_summary(folder.file("summary.json"));
+    if (!summary.is_object()) return nullptr;
+    return summary.contains("made_from") ? summary["made_from"]
+           : summary.contains("deploy")  ? Json("deploy")
+                                         : Json(nullptr);
+}
+
+}   // namespace
+
+void expect_no_other_results(const OutputFolder& folder, const deck::Case& config) {
+    const Json known = origin_of_results(folder);
+    if (!known.is_null() && known != origin_summary(origin_of(config, binary_hash())))
+        throw CheckpointError(fmt::format(
+            "'{}' holds results of another deck, other inputs, another command or another version of the program; "
+            "--fresh replaces them",
+            folder.root().string()));
+}
+
+void expect_no_results_but_estimates(const OutputFolder& folder) {
+    if (!origin_of_results(folder).is_null())
+        throw CheckpointError(
+            fmt::format("'{}' holds results of another command, which an estimate would replace; choose another folder",
+                        folder.root().string()));
+}
 
 Log make_run_log(const OutputFolder& folder, bool goes_on) {
     return make_tee_log(make_file_log(folder.file("log.txt"), goes_on ? LogMode::append : LogMode::begin), print_log);
@@ -66,7 +102,15 @@ ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, co
                                  .progress = &progress});
     });
     if (outcome == Outcome::interrupted) return interruption.exit_code();
-    fmt::print("{}", flow_table(read_summary(folder.file("summary.json"))));
+    const Json summary = read_summary(folder.file("summary.json"));
+    fmt::print("{}", flow_table(summary));
+    constexpr double most = 1.1;   // where a lesion gains pressure it is by less than that
+    if (const Json& ffr = summary["ffr"]["lesion"]; ffr.is_number() && !(ffr >= 0 && ffr <= most))
+        log(LogLevel::warning,
+            fmt::format(
+                "an FFR of {:.3g} is none that a vessel can have: the flow that the deck asks for loses more pressure "
+                "than aorta.pressure, or runs backwards; look at flows, pressures, viscosity and their units",
+                ffr.get<double>()));
     return outcome == Outcome::done ? ExitCode::ok : ExitCode::bar_missed;
 }
 

@@ -17,6 +17,12 @@ namespace patency::app {
 /// Messages to the folder's log.txt and to the terminal; goes on with the log of an interrupted run.
 Log make_run_log(const OutputFolder& folder, bool goes_on);
 
+/// Throws CheckpointError where a folder holds results of another deck, other inputs, another version or another command: they are
+/// not removed unasked.
+void expect_no_other_results(const OutputFolder& folder, const deck::Case& config);
+/// The same for a command whose results do not say what they were made from.
+void expect_no_results_but_estimates(const OutputFolder& folder);
+
 /// On the terminal: one line that is rewritten, or lines now and then where there is none.
 Progress make_progress();
 

@@ -119,8 +119,12 @@ Shown find_shown(const StentOptions& o) {
                  config.stent->spacing};
         if (config.stent->placement) shown.placement = *config.stent->placement;
     } else {
-        const StentDesign& design = find_stent(o.name);
-        shown = {design.name, design.description, design.source, design.pattern, {}};
+        try {
+            const StentDesign& design = find_stent(o.name);
+            shown = {design.name, design.description, design.source, design.pattern, {}};
+        } catch (const GeometryError& unknown) {   // the command line's mistake, and no file's
+            throw UsageError(unknown.what());
+        }
     }
     if (!o.spacing.empty()) shown.spacing = parse_quantity(o.spacing, Dimension::length);
     if (!o.at.empty())

@@ -47,6 +47,7 @@ protected:
 
 TEST_F(Commands, version_and_schema_answer) {
     EXPECT_EQ(patency("version").exit_code, 0);
+    EXPECT_EQ(patency("--version").exit_code, 0);
     const Result schema = patency("schema");
     EXPECT_EQ(schema.exit_code, 0);
     EXPECT_NE(schema.output.find("\"$schema\""), std::string::npos);
@@ -67,6 +68,7 @@ TEST_F(Commands, a_wrong_command_line_is_2) {
     EXPECT_EQ(patency("").exit_code, 2);
     EXPECT_EQ(patency("flwo").exit_code, 2);
     EXPECT_EQ(patency("flow").exit_code, 2);
+    EXPECT_EQ(patency("stent show nix").exit_code, 2);
     EXPECT_EQ(patency("--help").exit_code, 0);
 }
 
@@ -263,6 +265,38 @@ TEST_F(Commands, a_killed_run_goes_on_to_the_same_summary) {
     EXPECT_EQ(resumed.exit_code, 0);
     EXPECT_NE(resumed.output.find("goes on at"), std::string::npos) << resumed.output;
     EXPECT_EQ(content(folder_ / "out" / "summary.json"), content(folder_ / "whole" / "summary.json"));
+}
+
+/// A steady flow on cells leaves no checkpoint; its results are as dear.
+TEST_F(Commands, other_results_are_replaced_only_if_asked) {
+    const std::string deck = fmt::format("{}/cases/coronary_bifurcation.yaml", PATENCY_SOURCE_DIR);
+    const auto flow = [&](const std::string& more) {
+        return patency(fmt::format("flow {} -o {} --threads 1 --set numerics.across=5 {}", deck, out(), more))
+            .exit_code;
+    };
+    const std::string estimate = fmt::format("estimate {} -o {}", deck, out()),
+                      other = "--set openings.inlet.velocity='0.3 m/s'";
+    EXPECT_EQ(patency(estimate).exit_code, 0);
+    EXPECT_EQ(flow(""), 0);   // an estimate is a second's work
+    const std::string summary = content(folder_ / "out" / "summary.json");
+    EXPECT_EQ(patency(estimate).exit_code, 8);
+    EXPECT_EQ(flow(other), 8);
+    EXPECT_EQ(content(folder_ / "out" / "summary.json"), summary);
+    EXPECT_EQ(flow(other + " --fresh"), 0);
+}
+
+TEST_F(Commands, what_check_calls_right_a_flow_can_begin) {
+    const std::string deck = fmt::format("{}/cases/coronary_bifurcation.yaml", PATENCY_SOURCE_DIR);
+    const auto check = [&](const std::string& more) { return patency(fmt::format("check {} {}", deck, more)); };
+    EXPECT_EQ(check("").exit_code, 0);
+    EXPECT_NE(check("").output.find("Reynolds number"), std::string::npos);
+    EXPECT_EQ(check("--set geometry.lesion.branch=lad").exit_code, 3);
+    EXPECT_EQ(check("--set geometry.unit=cm").exit_code, 3);
+    EXPECT_EQ(check("--set 'case={name: a, mode: periodic, period: 0.8 s}' "
+                    "--set 'openings.inlet={type: flow, waveform: {file: none.csv}}'")
+                  .exit_code,
+              7);
+    EXPECT_NE(check("--set openings.inlet.velocity='30 m/s'").output.find("turbulent"), std::string::npos);
 }
 
 TEST_F(Commands, another_decks_checkpoint_is_8_unless_begun_anew) {

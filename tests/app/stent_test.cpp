@@ -27,7 +27,7 @@ TEST(StentCommand, ListsAndShowsEveryDesign) {
     EXPECT_EQ(shown.exit_code, 0) << shown.output;
     EXPECT_TRUE(has(shown.output, "48"));   // cells: eight gaps of six connectors
     const Result unknown = patency("stent show closed_cel");
-    EXPECT_EQ(unknown.exit_code, 4);
+    EXPECT_EQ(unknown.exit_code, 2);
     EXPECT_TRUE(has(unknown.output, "did you mean closed_cell?"));
     EXPECT_EQ(patency("stent").exit_code, 2);
 }

@@ -35,6 +35,38 @@ numerics: {scheme: sph, spacing: 0.05 mm, reference_speed: 0.33 m/s, duration: 3
         << report;
 }
 
+TEST(Mistakes, PeriodsThatAreNotTheCases) {
+    const auto with = [](const std::string& waveform) {
+        return mistakes_in(R"(version: 1
+case: {name: pulse, mode: periodic, period: 0.8 s}
+geometry: {shape: {type: tube, diameter: 3 mm, length: 12 mm}}
+blood: {density: 1060 kg/m^3, viscosity: 3.5 mPa s}
+openings:
+  inlet: {type: flow, waveform: )" +
+                           waveform + R"(}
+  outlet: {type: pressure, pressure: 0 Pa}
+numerics: {scheme: cells, spacing: 0.3 mm, duration: 1.6 s}
+)");
+    };
+    const std::string says = "period: is not the case's period, 0.8 s, nor a whole part of it";
+    const std::string table = "{times: [0 s, 0.1 s], values: [0 mL/min, 60 mL/min], period: ";
+    EXPECT_NE(with(table + "1.2 s}").find(says), std::string::npos);
+    EXPECT_NE(with("{fourier: {mean: 1e-6, period: 0.5 s, cosines: [1e-7], sines: [0]}}").find(says),
+              std::string::npos);
+    EXPECT_EQ(with(table + "0.4 s}").find(says), std::string::npos) << with(table + "0.4 s}");
+}
+
+TEST(Mistakes, AnInletAboveTheAorta) {
+    const std::string report = mistakes_in(R"(version: 1
+geometry: {network: a.json}
+blood: {density: 1060 kg/m^3, viscosity: 3.5 mPa s}
+aorta: {pressure: 93 mmHg}
+openings: {inlet: {type: pressure, pressure: 186 mmHg}, outlet: {type: pressure, pressure: 0 Pa}}
+numerics: {scheme: cells, across: 12, duration: 1 s}
+)");
+    EXPECT_NE(report.find("openings.inlet.pressure: is more than aorta.pressure, 93 mmHg"), report.npos) << report;
+}
+
 TEST(Mistakes, FlowsThatNobodyFollows) {
     EXPECT_EQ(mistakes_in(pipe_with("  spacing:", "  scheme: sph\n  without_rest: follow\n  spacing:")),
               only("17:17: numerics.without_rest: is for a steady flow of scheme cells"));

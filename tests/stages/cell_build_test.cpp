@@ -148,6 +148,24 @@ TEST(RunFlow, APulseOnCellsGoesOnToTheSameBytes) {
     }
 }
 
+// What stays in the vessel is compared with what passes; where a pulse rests nothing does.
+TEST(RunFlow, APulseMayRestBetweenBeats) {
+    const deck::Case config = deck::parse_case(R"(version: 1
+case: {name: rest, mode: periodic, period: "0.4 s"}
+geometry: {shape: {type: tube, diameter: "2 mm", length: "6 mm"}}
+blood: {density: "1060 kg/m^3", viscosity: "3.5 mPa s"}
+openings:
+  inlet: {type: flow, waveform: {times: ["0 s", "0.1 s", "0.2 s", "0.4 s"], values: ["0 mL/min", "30 mL/min", "0 mL/min", "0 mL/min"]}}
+  outlet: {type: pressure, pressure: "0 Pa"}
+numerics: {scheme: cells, spacing: "0.3 mm", duration: "0.8 s", steps_per_period: 40}
+)");
+    const Folder folder;
+    const OutputFolder out(folder.path);
+    EXPECT_EQ(run_flow(config, {.folder = out}), Outcome::done);
+    const auto summary = nlohmann::json::parse(text_of(out.file("summary.json")));
+    EXPECT_NEAR(double(summary["openings"]["outlet"]["flow_m3_per_s"]), 0.5e-6 * 0.2 / (2 * 0.4), 0.01e-6);
+}
+
 // A jet over a step at a Reynolds number of 3000: no steady flow is found, and its means over time are.
 TEST(RunFlow, FollowsAFlowWithoutRestInTime) {
     const deck::Case config = deck::parse_case(R"(version: 1

@@ -67,6 +67,30 @@ TEST(DeployGeometrically, LeavesAnOpenLumenThatAFlowAccepts) {
     EXPECT_NEAR(volume(stl), volume(vtp), 1e-5 * volume(vtp));
 }
 
+/// Of two ends that are equally wide rounding in the file tells which is the first: the flow after goes the same way all the same.
+TEST(DeployGeometrically, TheInletStaysWhereItWas) {
+    const ScratchFolder inputs;
+    nlohmann::json points;
+    for (int k = 0; k <= 80; ++k) points.push_back({0.5 * k, 0, 0, 2.0});
+    write_file(inputs / "straight.json",
+               nlohmann::json{{"unit", "mm"}, {"tubes", {{{"name", "main"}, {"points", points}}}}}.dump());
+    write_file(inputs / "case.yaml", R"(version: 1
+geometry: {network: straight.json, lesion: {branch: main, position: 18 mm, length: 10 mm, diameter_stenosis_percent: 50}}
+blood: {density: 1060 kg/m^3, viscosity: 3.5 mPa s}
+openings: {inlet: {type: flow, flow: 120 mL/min}, outlet_1: {type: pressure, pressure: 0 Pa}}
+stent: {design: paper}
+deployment: {mode: geometric, diameter: 3.3 mm}
+numerics: {scheme: cells, across: 8, duration: 1 s}
+)");
+    const Folder out;
+    const OutputFolder folder(out.path);
+    ASSERT_TRUE(run_deploy(deck::read_case(inputs / "case.yaml"), {.folder = folder}));
+    const Vessel after = read_vessel(deck::read_case(folder.file("case_after.yaml")));
+    ASSERT_EQ(after.openings.size(), 2u);
+    EXPECT_EQ(after.openings[0].opening.name, "inlet");
+    EXPECT_NEAR(after.openings[0].opening.centre.x, 0, 0.1e-3);
+}
+
 struct Traces {
     std::string table;
     std::vector<double> known;   // of the past, for the results at the end

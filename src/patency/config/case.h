@@ -242,7 +242,7 @@ struct Bed {
     BedState state = BedState::hyperaemic;
     std::optional<double> flow;   ///< m^3/s of all such outlets together; absent: by the state and the inlet's area
     double murray_exponent = 3;   ///< an outlet takes its diameter to this power
-    double venous_pressure = 666.612;   ///< Pa behind the bed: 5 mmHg
+    double venous_pressure = 5 * 133.322387415;   ///< Pa behind the bed
     bool operator==(const Bed&) const = default;
 };
 

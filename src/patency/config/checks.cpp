@@ -281,6 +281,11 @@ private:
                 expect(case_.aorta.pressure.has_value(), path,
                        "needs a pressure or a waveform, or aorta.pressure, which it has then",
                        {path + ".pressure", "aorta.pressure"});
+            if (name == "inlet" && opening.pressure && case_.aorta.pressure)
+                expect(*opening.pressure <= *case_.aorta.pressure * (1 + 1e-9), path + ".pressure",
+                       "is more than aorta.pressure, " + format_quantity(*case_.aorta.pressure, "mmHg") +
+                           ", which is the mean at this opening and what FFR counts from",
+                       {"aorta.pressure"});
             if (opening.is_tuned()) check_tuned(opening, path);
             if (opening.type == OpeningType::rcr || opening.type == OpeningType::coronary)
                 check_windkessel(opening, path);
@@ -359,6 +364,16 @@ private:
         } else {
             expect(waveform.values.empty(), path + ".values", "stand without times", {path});
         }
+        const auto expect_whole = [&](const std::optional<double>& own, const std::string& key) {
+            if (!own || !case_.about.period) return;   // means are taken over a period of the case
+            const double times = *case_.about.period / *own;
+            expect(
+                times > 0.5 && std::abs(times - std::round(times)) < 1e-6, key,
+                "is not the case's period, " + format_quantity(*case_.about.period, "s") + ", nor a whole part of it",
+                {"case.period"});
+        };
+        expect_whole(waveform.period, path + ".period");
+        if (waveform.fourier) expect_whole(waveform.fourier->period, path + ".fourier.period");
         if (waveform.fourier)
             expect(waveform.fourier->cosines.size() == waveform.fourier->sines.size(), path + ".fourier.sines",
                    "there must be as many as cosines", {path + ".fourier"});

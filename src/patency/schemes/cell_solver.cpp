@@ -77,11 +77,11 @@ private:
     std::vector<std::vector<CellEndState>> ends_;
 };
 
-/// Whether no more stays in the vessel than such a share of what passes.
-bool is_balanced(const std::vector<CellEndState>& ends, double share) {
-    double sum = 0, through = 0;
-    for (const CellEndState& end : ends) sum += end.flow, through += 0.5 * std::abs(end.flow);
-    return std::abs(sum) <= share * through;
+/// Whether no more than so much stays in the vessel.
+bool is_balanced(const std::vector<CellEndState>& ends, double most) {
+    double sum = 0;
+    for (const CellEndState& end : ends) sum += end.flow;
+    return std::abs(sum) <= most;
 }
 
 /// Of fields, one step after the other.
@@ -140,7 +140,7 @@ CellSolution iterate(CellBalance& balance, CellMatrix& matrix, const CellSolverS
         const bool is_lost = !std::isfinite(worst);
         if (is_lost && best.pressure.empty()) throw fail("lost its numbers");
         if (step >= settings.least_iterations && worst < settings.tolerance &&
-            is_balanced(balance.end_states(), settings.imbalance_share * settings.tolerance)) {
+            is_balanced(balance.end_states(), settings.imbalance_share * settings.tolerance * balance.scales().flow)) {
             solution.is_converged = true;
             solution.history.push_back({volume, momentum, 0, 0, courant});
             return solution;

@@ -217,9 +217,12 @@ void open_at(Network& network, const std::string& name, const Vec3& point, const
 void add_lesion(Network& network, const Narrowing& lesion) {
     const auto found =
         std::find_if(network.tubes.begin(), network.tubes.end(), [&](const Tube& t) { return t.name == lesion.tube; });
-    if (found == network.tubes.end())
-        throw GeometryError(fmt::format("The lesion lies in branch '{}', which the network has not; it has {}.",
-                                        shortened(lesion.tube), join(names_of(network), ", ", " and ")));
+    if (found == network.tubes.end()) {
+        const std::string nearest = nearest_name(lesion.tube, names_of(network));
+        throw GeometryError(fmt::format(
+            "The lesion lies in branch '{}', which the network has not{}; it has {}.", shortened(lesion.tube),
+            nearest.empty() ? "" : ", did you mean " + nearest + "?", join(names_of(network), ", ", " and ")));
+    }
     Tube& tube = *found;
     const double low = lesion.position - 0.5 * lesion.length, high = lesion.position + 0.5 * lesion.length,
                  length = length_of(tube);

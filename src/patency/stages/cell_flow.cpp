@@ -159,6 +159,10 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage,
     const Stopwatch watch;
     const auto say = [&](const std::string& line) { stage.log(LogLevel::info, line); };
     deck::write_case(config, stage.folder.file("case.resolved.yaml"));
+    if (!config.output.probes.empty() || !config.output.profiles.empty())
+        stage.log(LogLevel::warning,
+                  "output.probes and output.profiles are of flows in time: a steady flow on cells writes none; "
+                  "fluid.pvd has the flow everywhere");
     std::size_t cells = 0;
     std::int64_t steps = 0;
     double build_cpu = 0, build_wall = 0;

@@ -6,8 +6,12 @@
 #include <numbers>
 #include <optional>
 
+#include "patency/physics/open_ends/profile.h"
+#include "patency/stages/bed.h"
 #include "patency/stages/cell_scene.h"
 #include "patency/stages/end_law.h"
+#include "patency/stages/material.h"
+#include "patency/stages/speeds.h"
 
 namespace patency {
 
@@ -87,6 +91,15 @@ CellPlan plan_cells(const deck::Case& config, int threads, const Vessel* known) 
         plan.cells = lumen.volume / std::pow(plan.finest, lumen.planar ? 2 : 3);
     }
     plan.across_narrowest = lumen.narrowest / plan.finest;
+    deck::Case complete = config;   // whatever is wrong with its openings is said now, and not by the flow
+    complete_openings(complete, lumen.openings);
+    std::vector<EndLaw> laws;
+    for (const Opening& opening : lumen.openings)
+        laws.push_back(make_end_law(opening, complete.openings.at(opening.name), complete));
+    const FluidMaterial blood = make_material(complete.blood);
+    plan.speed = estimate_expected(complete, lumen, laws, blood).speed;
+    const double developed = parabola_profile(lumen.planar ? Section::planar : Section::circular, 0);
+    plan.reynolds = blood.density * plan.speed / developed * lumen.narrowest / blood.viscosity;
     plan.memory = bytes_at_least + bytes_per_cell * plan.cells;
     const double work = seconds_at_wall * std::cbrt(plan.cells * plan.cells) +
                         (seconds_per_cell + plan.steps * seconds_per_cell_and_step) * plan.cells;

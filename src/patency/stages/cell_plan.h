@@ -15,6 +15,7 @@ struct CellPlan {
     double seconds;            ///< expected on `threads` threads
     double steps;              ///< in time; none of a steady flow
     int threads;
+    double speed = 0, reynolds = 0;   ///< expected: the largest [m/s]; of the mean speed through the narrowest width
 };
 
 /// Of a deck of scheme cells. Throws DeckError for what a flow on cells cannot be, GeometryError.

@@ -47,7 +47,9 @@ void add_vessel_results(nlohmann::ordered_json& summary, const CellScene& cells,
         else
             lowest = std::min(lowest, ends[k].pressure);
     }
-    const VesselFlow flow = evaluate_vessel(*scene, recorder, at_inlet, lowest);
+    std::vector<double> out;
+    for (const CellEndState& end : ends) out.push_back(end.flow);
+    const VesselFlow flow = evaluate_vessel(*scene, recorder, at_inlet, lowest, out);
     add_vessel_summary(summary, *scene, recorder, flow);
     write_vessel_files(folder, *scene, recorder, flow);
 }

@@ -195,25 +195,12 @@ void fall_back(Scene& scene, const Error& error) {
     scene.start_remark = fmt::format("starts from the estimate, for on cells: {}", error.what());
 }
 
-/// Flows along the branches, from those out of the ends [m^3/s].
-std::vector<double> branch_flows(const Scene& scene, const std::vector<double>& out) {
-    const BranchedLines& lines = scene.vessel->along->lines;
-    std::vector<double> flows;
-    for (const Branch& branch : lines.branches) {
-        flows.push_back(0);
-        for (std::size_t line : branch.lines)
-            for (std::size_t k = 0; k < out.size(); ++k)
-                if (scene.ends[k].name == lines.lines[line].outlet) flows.back() += out[k];
-    }
-    return flows;
-}
-
 /// Velocities of places between those where they are known carry a per cent more or less than is known to flow, and so do profiles over the
 /// distance to the wall of a section that is not round. Sound would have to take it away, and leaves the flow swinging for as long
 /// as blood needs through the vessel. So every branch's velocities are scaled to what it carries.         THEORY.md (15.6)
 void scale_to_flows(Scene& scene, const std::vector<double>& out) {
     FluidParticles& fluid = scene.fluid;
-    const std::vector<double> flows = branch_flows(scene, out);
+    const std::vector<double> flows = branch_flows(scene.vessel->along->lines, scene.lumen.openings, out);
     const auto field = estimated_field(scene);
     const std::vector<double> carried =
         field->carried({&fluid.position[0], fluid.size()}, {&fluid.velocity[0], fluid.size()}, fluid.volume[0]);

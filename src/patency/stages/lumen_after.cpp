@@ -72,7 +72,8 @@ Vessel write_lumen_after(const deck::Case& config, const Vessel& before, const S
     const auto path = std::filesystem::absolute(folder.file("lumen_after.vtp"));
     write_surface(path, after);
     write_stl(folder.file("lumen_after.stl"), after, config.geometry.unit.value_or("mm"));
-    Vessel vessel = check_vessel(after);
+    // As the flow after will read it: of ends that are equally wide rounding in the file tells which is the first.
+    Vessel vessel = check_vessel(read_surface(path.string(), "mm"));
     if (const std::string refused = refusals(vessel.checked.findings); !refused.empty())
         throw GeometryError(
             fmt::format("The lumen after the deployment cannot be used; patency inspect {} shows where.\n{}",

@@ -186,14 +186,22 @@ void expect_same_names(const deck::Case& config, const Lumen& lumen) {
 
 Network read_network_of(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
-    Network network = read_network(g.network.value(), g.unit.value_or(""), g.space.value_or(""));
-    if (const auto& lesion = g.lesion)
-        add_lesion(network, {.tube = lesion->branch,
-                             .position = lesion->position,
-                             .length = lesion->length,
-                             .stenosis = lesion->diameter_stenosis_percent / 100,
-                             .eccentricity = lesion->eccentricity,
-                             .side = lesion->side});
+    Network network;
+    try {
+        network = read_network(g.network.value(), g.unit.value_or(""), g.space.value_or(""));
+    } catch (const UsageError& error) {   // of the unit or the space that the deck gives
+        throw DeckError(fmt::format("geometry: {}", error.what()));
+    }
+    if (const auto& lesion = g.lesion) try {
+            add_lesion(network, {.tube = lesion->branch,
+                                 .position = lesion->position,
+                                 .length = lesion->length,
+                                 .stenosis = lesion->diameter_stenosis_percent / 100,
+                                 .eccentricity = lesion->eccentricity,
+                                 .side = lesion->side});
+        } catch (const GeometryError& error) {   // what the deck asks for is not to be had of this network
+            throw DeckError(fmt::format("geometry.lesion: {}", error.what()));
+        }
     return network;
 }
 

@@ -53,6 +53,9 @@ public:
           watch_(watch) {
         prepare(restless);
         expect_fields();
+        if (config_.about.period && config_.numerics.duration < *config_.about.period * (1 - 1e-9))
+            stage_.log(LogLevel::warning,
+                       "numerics.duration ends before the first period does: means are of a part of it");
         if (is_steady_on_cells(config_))
             say(fmt::format("windows of {:.3g} ms, at most {:.3g} ms", 1e3 * window_->length(),
                             1e3 * config_.numerics.duration));
@@ -165,15 +168,19 @@ private:
                                       {"window_s", window_->length()},
                                       {"is_mean_over_time", is_steady_on_cells(config_)}};
         if (vessel_) {
-            std::vector<double> pressures;
-            for (std::size_t k = 0; k < scene_->ends.size(); ++k)
-                pressures.push_back(mean_between(from, to, k, scene_->ends[k].area).pressure);
+            std::vector<double> pressures,
+                out;   // out of cells, which store nothing; of particles sections are measured
+            for (std::size_t k = 0; k < scene_->ends.size(); ++k) {
+                const OpeningMean mean = mean_between(from, to, k, scene_->ends[k].area);
+                pressures.push_back(mean.pressure);
+                if (is_on_cells()) out.push_back(mean.flow);
+            }
             const std::string& inlet = scene_->vessel->openings.front().opening.name;
             double at_inlet = 0, lowest = INFINITY;
             for (std::size_t k = 0; k < pressures.size(); ++k)
                 (scene_->ends[k].name == inlet ? at_inlet : lowest) =
                     scene_->ends[k].name == inlet ? pressures[k] : std::min(lowest, pressures[k]);
-            const VesselFlow flow = evaluate_vessel(*scene_, *vessel_, at_inlet, lowest);
+            const VesselFlow flow = evaluate_vessel(*scene_, *vessel_, at_inlet, lowest, out);
             add_vessel_summary(summary, *scene_, *vessel_, flow);
             write_vessel_files(stage_.folder, *scene_, *vessel_, flow);
         }

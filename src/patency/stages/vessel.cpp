@@ -164,6 +164,18 @@ double lumen_area(const VesselAlong& along, std::size_t line, std::size_t point)
     return std::numbers::pi * radius * radius;
 }
 
+std::vector<double> branch_flows(const BranchedLines& lines, const std::vector<Opening>& openings,
+                                 std::span<const double> out) {
+    std::vector<double> flows;
+    for (const Branch& branch : lines.branches) {
+        flows.push_back(0);
+        for (std::size_t line : branch.lines)
+            for (std::size_t k = 0; k < out.size(); ++k)
+                if (openings[k].name == lines.lines[line].outlet) flows.back() += out[k];
+    }
+    return flows;
+}
+
 double narrowest_diameter(const VesselAlong& along) {
     double radius = Bounds::infinity;
     for (const Centreline& line : along.lines.lines)

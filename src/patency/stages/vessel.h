@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,10 @@ struct VesselAlong {
 double lumen_area(const VesselAlong& along, std::size_t line, std::size_t point);
 /// Diameter of the smallest of the largest spheres along all lines [m].
 double narrowest_diameter(const VesselAlong& along);
+
+/// What flows along the branches of a vessel that stores nothing, from what flows out of its openings [m^3/s].
+std::vector<double> branch_flows(const BranchedLines& lines, const std::vector<Opening>& openings,
+                                 std::span<const double> out);
 /// When outlets of these diameters [m], one per line, share the flow by Murray's law.
 Passage passage_of(const VesselAlong& along, const std::vector<double>& outlet_diameters);
 

@@ -287,8 +287,10 @@ void write_streamlines(const OutputFolder& folder, const Scene& scene, const Ves
 }   // namespace
 
 VesselFlow evaluate_vessel(const Scene& scene, const VesselRecorder& recorder, double inlet_pressure,
-                           double lowest_outlet) {
+                           double lowest_outlet, std::span<const double> out) {
     VesselFlow result;
+    std::vector<double> along;
+    if (!out.empty()) along = branch_flows(scene.vessel->along->lines, scene.lumen.openings, out);
     const auto& aortic = scene.config.aorta.pressure;
     if (aortic) result.level = *aortic - inlet_pressure;
     const auto means = recorder.flows().mean(), deviations = recorder.flows().deviation();
@@ -299,6 +301,10 @@ VesselFlow evaluate_vessel(const Scene& scene, const VesselRecorder& recorder, d
                       deviations[k],
                       2 * recorder.stations()[k].plane.radius / spacing_at(scene, recorder.stations()[k].plane.centre),
                       {}};
+        if (!along.empty()) {
+            s.flow.flow = along[recorder.stations()[k].branch];
+            s.flow.mean_velocity = s.flow.flow / s.flow.area;
+        }
         if (aortic) s.ffr = (s.flow.pressure + result.level) / *aortic;
         result.stations.push_back(s);
     }
