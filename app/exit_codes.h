@@ -20,7 +20,7 @@ inline std::span<const ExitMeaning> exit_meanings() {
         {"5", "the computation diverged"},
         {"6", "finished, but a bar or the convergence was missed"},
         {"7", "a file cannot be read or written"},
-        {"8", "the checkpoint does not fit"},
+        {"8", "the folder holds a checkpoint or results of another deck, other inputs or another version"},
         {"130, 143", "interrupted; the next run goes on from a checkpoint, or begins a steady flow on cells anew"},
     };
     return meanings;

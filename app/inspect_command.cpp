@@ -43,9 +43,15 @@ struct Inspection : Vessel {
 };
 
 Inspection inspect(const InspectOptions& o) {
-    Inspection result{holds_network(o.path) ? check_vessel(read_network(o.path, o.unit, o.space), o.inlet)
-                                            : check_vessel(read_surface(o.path, o.unit, o.space, o.label), o.inlet)};
+    if (!holds_network(o.path)) {
+        Inspection result{check_vessel(read_surface(o.path, o.unit, o.space, o.label), o.inlet)};
+        follow_vessel(result);
+        return result;
+    }
+    const Network network = read_network(o.path, o.unit, o.space);
+    Inspection result{check_vessel(network, o.inlet)};
     follow_vessel(result);
+    name_as_tubes(result, network);
     return result;
 }
 

@@ -194,6 +194,15 @@ TEST_F(Inspect, TheStenosisOfTheReferenceBifurcationIs39Percent) {
     EXPECT_EQ(json["branches"].size(), 5u);
 }
 
+TEST_F(Inspect, ANetworksBranchesHaveTheNamesThatDecksUse) {
+    const Result result =
+        patency(fmt::format("inspect {}/cases/coronary_bifurcation.json -o {}", PATENCY_SOURCE_DIR, out()));
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char* name : {"left_main", "circumflex", "anterior_descending"})
+        EXPECT_TRUE(has(result.output, name)) << name;
+    EXPECT_FALSE(has(result.output, "branch_1"));
+}
+
 TEST_F(Inspect, TheDirtyVesselIsRefusedWithItsDefects) {
     if (!fs::exists(vessels())) GTEST_SKIP() << "no " << vessels();
     const Result result = patency(fmt::format("inspect {} --unit m -o {}",

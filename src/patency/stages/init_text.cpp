@@ -141,12 +141,16 @@ void describe_price(Lines& out, const Vessel& vessel, const InitPlan& plan) {
         out.add(
             "  That is more than the budget: a coarser spacing would leave fewer than 4 particles across an opening.");
     if (plan.fine_spacing < spacing) out.add("  nothing under-resolved: {}", price(plan.fine_price, plan.fine_spacing));
-    out.add(
-        "  Steady after {} s at the latest: along the slowest way, in each branch, the sooner of viscosity's slowest "
-        "mode at 1 % and",
-        format_number(plan.config.numerics.duration));
-    out.add(
-        "  twice the time that blood needs to pass. From the estimate it gets there sooner, and the run ends then.");
+    if (plan.config.about.mode == deck::Mode::steady) {
+        out.add(
+            "  Steady after {} s at the latest: along the slowest way, in each branch, the sooner of viscosity's "
+            "slowest "
+            "mode at 1 % and",
+            format_number(plan.config.numerics.duration));
+        out.add(
+            "  twice the time that blood needs to pass. From the estimate it gets there sooner, and the run ends "
+            "then.");
+    }
     for (const Cut& cut : plan.cuts)
         out.add(
             "  The budget's {} would need {} cut back from {:.1f} to {:.1f} mm along its line, where it is 4 particles "

@@ -234,6 +234,13 @@ void as_said_by(const char* key, Change change) {
 
 }   // namespace
 
+void name_as_tubes(Vessel& vessel, const Network& network) {
+    if (!vessel.along) return;
+    std::vector<NamedCurve> curves;
+    for (const Tube& tube : network.tubes) curves.push_back({tube.name, tube.points});
+    name_branches(vessel.along->lines, curves);
+}
+
 Vessel open_vessel(const deck::Case& config) {
     const deck::Geometry& g = config.geometry;
     Surface surface;
@@ -266,9 +273,7 @@ Vessel read_vessel(const deck::Case& config, double network_resolution) {
     Vessel vessel = check_vessel(network, {}, network_resolution);
     follow_vessel(vessel);
     expect_usable(vessel, g);
-    std::vector<NamedCurve> curves;
-    for (const Tube& tube : network.tubes) curves.push_back({tube.name, tube.points});
-    name_branches(vessel.along->lines, curves);
+    name_as_tubes(vessel, network);
     return vessel;
 }
 

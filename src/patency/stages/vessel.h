@@ -62,6 +62,9 @@ Vessel check_vessel(const Network& network, std::string_view inlet = {}, double 
 /// where something is refused already, or where it was followed before.
 void follow_vessel(Vessel& vessel);
 
+/// Branches that have been followed get the names of the network's tubes, as decks must use them.
+void name_as_tubes(Vessel& vessel, const Network& network);
+
 /// How far an opening is from square to the vessel's axis there [rad]; none where its branch is too short to say, or where the vessel was
 /// not followed.
 std::optional<double> off_square(const Vessel& vessel, std::size_t opening);
