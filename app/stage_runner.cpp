@@ -20,15 +20,11 @@ namespace patency::app {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 void print_log(LogLevel level, std::string_view line) {
     if (level != LogLevel::error) fmt::print(stderr, "{}\n", line);   // errors are main.cpp's to say
 }
-
-}   // namespace
-
-namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What a folder's results say that they were made from; null where there are none, or none that cost more than a second.
 Json origin_of_results(const OutputFolder& folder) {

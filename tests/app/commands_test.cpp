@@ -285,6 +285,20 @@ TEST_F(Commands, other_results_are_replaced_only_if_asked) {
     EXPECT_EQ(flow(other + " --fresh"), 0);
 }
 
+TEST_F(Commands, an_ffr_that_no_vessel_can_have_is_warned_of) {
+    const Result result =
+        patency(fmt::format("flow {}/cases/coronary_bifurcation.yaml -o {} --threads 1 --set numerics.across=5 --set "
+                            "'aorta.pressure=1 mmHg'",
+                            PATENCY_SOURCE_DIR, out()));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_EQ(result.output.find("none that a vessel can have"), std::string::npos) << result.output;   // 0.5
+    const Result none =
+        patency(fmt::format("flow {}/cases/coronary_bifurcation.yaml -o {} --threads 1 --set numerics.across=5 --set "
+                            "'aorta.pressure=10 Pa'",
+                            PATENCY_SOURCE_DIR, (folder_ / "none").string()));
+    EXPECT_NE(none.output.find("none that a vessel can have"), std::string::npos) << none.output;
+}
+
 TEST_F(Commands, what_check_calls_right_a_flow_can_begin) {
     const std::string deck = fmt::format("{}/cases/coronary_bifurcation.yaml", PATENCY_SOURCE_DIR);
     const auto check = [&](const std::string& more) { return patency(fmt::format("check {} {}", deck, more)); };

@@ -10,9 +10,12 @@
 #include "patency/config/deck.h"
 #include "patency/io/atomic_file.h"
 #include "patency/io/checkpoint.h"
+#include "patency/io/polydata_file.h"
+#include "patency/io/pvd.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
 #include "patency/stages/deploy_program.h"
+#include "patency/stages/deploy_record.h"
 #include "patency/stages/deploy_state.h"
 #include "patency/stages/lumen_after.h"
 #include "patency/stages/vessel.h"
@@ -163,6 +166,17 @@ TEST(DeployByContact, KnowsHowLongAStentIsThatComesCrimped) {
     const auto known = CheckpointReader(folder.checkpoint("deploy")).read<std::vector<double>>("known");
     EXPECT_NEAR(known.at(0), 1.2e-3, 0.03e-3);   // length and diameter
     EXPECT_NEAR(known.at(1), 2e-3, 0.02e-3);
+}
+
+TEST(DeployRecord, TheLastInstantIsReplacedByWhatShowsMore) {
+    const Folder out;
+    const OutputFolder folder(out.path);
+    DeployRecord record(folder, {});
+    const PolyData little{.points = {{0, 0, 0}}}, more{.points = {{0, 0, 0}, {1, 0, 0}}};
+    record.add_frames(0, little, little), record.add_frames(1, little, little), record.add_frames(1, more, little);
+    const std::vector<PvdFrame> frames = read_pvd(folder.file("stent.pvd"));
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(read_polydata(out.path / frames.back().file).points.size(), 2u);
 }
 
 TEST(DeployState, AForceOnAVertexIsAllThatPushesOnIt) {

@@ -194,6 +194,15 @@ TEST(VesselResults, WithoutAnAortaThereIsNoFfr) {
     EXPECT_EQ(summary["branches"].size(), 5u);
 }
 
+TEST(VesselResults, SayWhyThereIsNoFfr) {
+    const auto frame =
+        build_frame(bifurcation({"aorta.pressure=93 mmHg"}));   // it has a lesion, and no section of it was seen
+    nlohmann::ordered_json summary;
+    add_vessel_summary(summary, *frame, VesselRecorder(*frame), {});
+    EXPECT_TRUE(summary["ffr"]["lesion"].is_null());
+    EXPECT_NE(summary["ffr"]["reason"].get<std::string>().find("too short or too coarse"), std::string::npos);
+}
+
 TEST(VesselResults, TheMeansOfARecorderSurviveItsState) {
     VesselRecorder recorder(scene()), other(scene());
     recorder.sample(scene()), recorder.sample(scene());

@@ -57,16 +57,12 @@ std::string rows_of_stresses(const Figures& f, const Json& part, const std::stri
     return rows;
 }
 
-/// What went where: the bodies' energies side by side, then what the tool did and what was lost between bodies.
+/// The bodies' energies side by side; both have the same kinds.
 std::string rows_of_energies(const Figures& f, const Json& energies) {
     std::string rows;
-    const auto add = [&](const std::string& what, const std::string& stent, const std::string& wall) {
-        rows += table_row({escaped(what), stent, wall});
-    };
-    if (energies.contains("stent"))
-        for (const auto& [key, value] : energies["stent"].items())
-            add(words_of(key), f.number("/deploy/energies/stent" + step(key), measure_of(key)),
-                f.number("/deploy/energies/wall" + step(key), measure_of(key)));
+    for (const auto& [key, value] : energies.value("stent", Json::object()).items())
+        rows += table_row({escaped(words_of(key)), f.number("/deploy/energies/stent" + step(key), measure_of(key)),
+                           f.number("/deploy/energies/wall" + step(key), measure_of(key))});
     return rows;
 }
 
@@ -81,14 +77,15 @@ std::string deployment_tables(const RunResults& results) {
         tables += table("Stresses and strains at the end of the deployment",
                         {"Where", "median", "95 % below", "99 % below", "largest"},
                         rows_of_stresses(f, deploy["stresses"], "/deploy/stresses"));
-    Json effort;
+    std::string rows;
     if (deploy.contains("energies")) {
-        tables += table("Energies of the deployment, mJ", {"Energy", "Stent", "Wall"},
-                        rows_of_energies(f, deploy["energies"]));
-        for (const auto& [key, value] : deploy["energies"].items())
-            if (value.is_number()) effort["energies"][key] = value;
+        const Json& energies = deploy["energies"];
+        tables += table("Energies of the deployment, mJ", {"Energy", "Stent", "Wall"}, rows_of_energies(f, energies));
+        Json shared;   // what the tool did, and what was lost between the bodies
+        for (const auto& [key, value] : energies.items())
+            if (value.is_number()) shared[key] = value;
+        rows = rows_of_numbers(f, shared, "/deploy/energies");
     }
-    std::string rows = effort.contains("energies") ? rows_of_numbers(f, effort["energies"], "/deploy/energies") : "";
     for (const char* key : {"particles", "spacing_mm", "mass_scaling", "steps"})
         if (deploy.contains(key)) rows += rows_of_numbers(f, Json{{key, deploy[key]}}, "/deploy");
     if (!rows.empty()) tables += table("What the deployment took", {"Quantity", "Value"}, rows);
