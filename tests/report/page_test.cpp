@@ -87,6 +87,37 @@ TEST(Page, StaysSmallForLargeResults) {
     EXPECT_LT(make_page(results, "1").size(), 5e6);
 }
 
+/// Stent beside wall, a distribution in a row, what belongs to neither body below: none of it may be lost.
+TEST(Page, ADeploymentsEnergiesAndStressesAreTables) {
+    const ScratchFolder folder;
+    const Json distribution{{"p50", 1e5}, {"p95", 2e5}, {"p99", 3e5}, {"largest", 496e6}};
+    write_summary(folder / "summary.json", {{"name", "stent"},
+                                            {"deploy",
+                                             {{"recoil_percent", 3.5},
+                                              {"largest_tool_pressure_pa", 1013250.0},
+                                              {"stresses",
+                                               {{"wall_von_mises_pa", {{"media", distribution}}},
+                                                {"plastic_strain", distribution},
+                                                {"wall_plastic_strain", Json::object()}}},
+                                              {"energies",
+                                               {{"tool_work_j", 0.0375},
+                                                {"stent", {{"plastic_j", 0.03125}}},
+                                                {"wall", {{"plastic_j", 0.0}}},
+                                                {"imbalance_percent", 0.25}}},
+                                              {"particles", {{"stent", 70170}, {"wall", 9790}}},
+                                              {"steps", 29710}}}});
+    const std::string page = make_page(read_results(folder.path()), "1");
+    for (const char* said :
+         {"Energies of the deployment, mJ", "Stresses and strains", "Wall von Mises stress, media, MPa",
+          "Plastic strain, %", "What the deployment took", "Imbalance of energy", "Particles, stent", ">31.250<",
+          ">37.500<", ">496<", ">10.0<", ">29710<"})
+        EXPECT_TRUE(has(page, said)) << said;
+    for (const char* path :
+         {"/deploy/energies/stent/plastic_j", "/deploy/energies/wall/plastic_j", "/deploy/energies/tool_work_j",
+          "/deploy/stresses/wall_von_mises_pa/media/p95", "/deploy/steps"})
+        EXPECT_TRUE(has(page, "data-path=\"" + std::string(path) + "\"")) << path;
+}
+
 TEST(Page, TextOfTheCaseStaysText) {
     const ScratchFolder folder;
     Json summary = flow_summary();

@@ -59,8 +59,9 @@ std::string rows_of_stresses(const Figures& f, const Json& part, const std::stri
 
 /// The bodies' energies side by side; both have the same kinds.
 std::string rows_of_energies(const Figures& f, const Json& energies) {
+    const Json stent = energies.value("stent", Json::object());
     std::string rows;
-    for (const auto& [key, value] : energies.value("stent", Json::object()).items())
+    for (const auto& [key, value] : stent.items())
         rows += table_row({escaped(words_of(key)), f.number("/deploy/energies/stent" + step(key), measure_of(key)),
                            f.number("/deploy/energies/wall" + step(key), measure_of(key))});
     return rows;
