@@ -4,6 +4,7 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -11,9 +12,11 @@
 #include "commands.h"
 #include "interruption.h"
 #include "patency/base/errors.h"
+#include "patency/io/atomic_file.h"
 #include "patency/io/hash.h"
 #include "patency/io/progress.h"
 #include "patency/verify/runner.h"
+#include "side_by_side.h"
 
 namespace patency::app {
 
@@ -75,9 +78,72 @@ void print_report(const CaseReport& report) {
 struct Options {
     std::vector<std::string> names, settings;
     std::string level = "quick", out = "verification", decks, reference, report, run;
-    int threads = 0;
+    int threads = 0, jobs = 0;
     bool is_listing = false, fresh = false;
 };
+
+/// The cases one after the other, in this process.
+ExitCode run_in_turn(const VerifyRequest& request) {
+    const Interruption interruption;
+    Screen screen;
+    VerifyRequest watched = request;
+    watched.report = [&](const VerifyProgress& p) { screen.show(p); };
+    watched.interrupted = [&] { return interruption.is_wanted(); };
+    bool all_pass = true;
+    try {
+        for (const CaseReport& report : run_verification(watched)) {
+            print_report(report);
+            all_pass = all_pass && report.passes();
+        }
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::interrupted) throw;
+        throw Error(interruption.exit_code(), error.what());
+    }
+    return all_pass ? ExitCode::ok : ExitCode::bar_missed;
+}
+
+/// One case, as a command of its own whose text goes beside its runs.
+Job job_of(const VerifyRequest& request, const std::string& name, int threads) {
+    Job job{{"verify", name, "--level", word_of(request.level), "-o", request.out.string(), "--threads",
+             fmt::format("{}", threads), "--decks", request.decks.string(), "--reference", request.reference.string()},
+            request.out / "runs" / (name + ".txt")};
+    for (const std::string& setting : request.settings) job.arguments.insert(job.arguments.end(), {"--set", setting});
+    if (request.fresh) job.arguments.emplace_back("--fresh");
+    return job;
+}
+
+/// Several cases at once, a process each: most are too small to keep more than one core busy. What a case said is shown when it ends.
+ExitCode run_together(const VerifyRequest& request, int at_once, int threads) {
+    std::vector<std::string> names = names_of_verification(request);
+    std::ranges::reverse(
+        names);   // the registry ends with the dearest, which would have the machine for themselves at the end
+    std::error_code error;
+    fs::create_directories(request.out / "runs", error);
+    if (error) throw FileError(file_error_sentence("make", request.out / "runs", error.value()));
+    std::vector<Job> jobs;
+    for (const std::string& name : names) jobs.push_back(job_of(request, name, threads));
+    const Interruption interruption;
+    std::size_t ended = 0;
+    ExitCode worst = ExitCode::ok;
+    run_side_by_side(jobs, at_once, interruption,
+                     {.begun =
+                          [&](std::size_t job) {
+                              fmt::print(stderr, "{} begins; {} tells how far it is\n", names[job],
+                                         jobs[job].output.string());
+                          },
+                      .ended =
+                          [&](std::size_t job, int exit_code) {
+                              const auto code = ExitCode(exit_code);
+                              if (worst == ExitCode::ok || (worst == ExitCode::bar_missed && code != ExitCode::ok))
+                                  worst = code;
+                              fmt::print("{}", read_file(jobs[job].output));
+                              std::fflush(stdout);
+                              fmt::print(stderr, "{} of {}: {} has ended\n", ++ended, names.size(), names[job]);
+                          }});
+    if (interruption.is_wanted())
+        throw Error(interruption.exit_code(), "the verification was interrupted; the same command goes on with it");
+    return worst;
+}
 
 ExitCode run(const Options& o) {
     if (o.is_listing) {
@@ -90,10 +156,8 @@ ExitCode run(const Options& o) {
         return ExitCode::ok;
     }
     if (o.threads > 0) omp_set_num_threads(o.threads);
-    const Interruption interruption;
     const fs::path decks = find_decks(o.decks);
-    Screen screen;
-    VerifyRequest request{
+    const VerifyRequest request{
         .names = o.names,
         .level = o.level == "full" ? Level::full : Level::quick,
         .out = o.out,
@@ -102,19 +166,9 @@ ExitCode run(const Options& o) {
         .program = hex_text(hash_file("/proc/self/exe")),
         .settings = o.settings,
         .fresh = o.fresh};
-    request.report = [&](const VerifyProgress& p) { screen.show(p); };
-    request.interrupted = [&] { return interruption.is_wanted(); };
-    bool all_pass = true;
-    try {
-        for (const CaseReport& report : run_verification(request)) {
-            print_report(report);
-            all_pass = all_pass && report.passes();
-        }
-    } catch (const Error& error) {
-        if (error.code() != ExitCode::interrupted) throw;
-        throw Error(interruption.exit_code(), error.what());
-    }
-    return all_pass ? ExitCode::ok : ExitCode::bar_missed;
+    const int cases = int(names_of_verification(request).size()), threads = omp_get_max_threads();
+    const int at_once = std::clamp(o.jobs > 0 ? o.jobs : threads, 1, cases);
+    return at_once == 1 ? run_in_turn(request) : run_together(request, at_once, std::max(1, threads / at_once));
 }
 
 }   // namespace
@@ -130,7 +184,9 @@ void add_verify_command(const Command& program, ExitCode& exit_code) {
     command
         .add_option("-o,--out", o->out, "Folder of the results; runs that are done are kept there and not done again")
         .with_default();
-    command.add_option("--threads", o->threads, "Threads; all cores if not given").between(1, 1024);
+    command.add_option("--threads", o->threads, "Threads of all cases together; all cores if not given")
+        .between(1, 1024);
+    command.add_option("--jobs", o->jobs, "Cases at once; as many as threads if not given").between(1, 1024);
     command.add_option("--set", o->settings, "KEY=VALUE over every deck").repeated();
     command.add_option("--decks", o->decks, "Folder of the decks (cases/verify)");
     command.add_option("--reference", o->reference, "Folder of stored results of other programs");

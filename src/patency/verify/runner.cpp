@@ -167,6 +167,12 @@ private:
 
 }   // namespace
 
+std::vector<std::string> names_of_verification(const VerifyRequest& request) {
+    std::vector<std::string> names;
+    for (const VerifyCase* c : choose_cases(request)) names.push_back(c->name);
+    return names;
+}
+
 std::vector<CaseReport> run_verification(const VerifyRequest& request) {
     const auto cases = choose_cases(request);
     make_folder(request.out);

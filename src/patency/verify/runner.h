@@ -32,6 +32,9 @@ struct VerifyRequest {
     std::function<bool()> interrupted = {};
 };
 
+/// The cases that a request is about, in the registry's order. @throws UsageError for an unknown name.
+std::vector<std::string> names_of_verification(const VerifyRequest& request);
+
 /// One report per case, in the registry's order. A run that diverges costs its figures their values, nothing else.
 /// @throws UsageError for an unknown name, DeckError, GeometryError and FileError for the decks and the folder, Error
 /// with ExitCode::interrupted if asked to stop.
