@@ -39,7 +39,7 @@ struct FlowCost {
 
 void print_cost(const FlowCost& cost) {
     fmt::print("  memory, disk         about {}, {}\n", readable_size(cost.memory), readable_size(cost.disk));
-    fmt::print("  expected time        about {} on {} threads", readable_time(cost.seconds), cost.threads);
+    fmt::print("  expected time        about {} on {}", readable_time(cost.seconds), thread_text(cost.threads));
     if (cost.longest_seconds > 1.1 * cost.seconds)
         fmt::print(" if the flow settles soon, {} at the longest", readable_time(cost.longest_seconds));
     fmt::print("\n");
@@ -92,8 +92,9 @@ void print_deploy_plan(const deck::Case& config, const DeployPlan& plan, int thr
         return fmt::print("  deployment           without mechanics, seconds\n");
     fmt::print(
         "  deployment           about {:.3g} particles of stent, {:.3g} of wall; {:.3g} steps, the stent's mass times "
-        "{:.3g}; about {} on {} threads\n",
-        plan.stent_particles, plan.wall_particles, plan.steps, plan.mass_scaling, readable_time(plan.seconds), threads);
+        "{:.3g}; about {} on {}\n",
+        plan.stent_particles, plan.wall_particles, plan.steps, plan.mass_scaling, readable_time(plan.seconds),
+        thread_text(threads));
 }
 
 void check(const DeckOptions& options) {

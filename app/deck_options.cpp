@@ -48,4 +48,10 @@ int DeckOptions::apply_threads(const deck::Case& config) const {
     return omp_get_max_threads();
 }
 
+std::string DeckOptions::title(const deck::Case& config) const {
+    return fmt::format("{} on {}", path, thread_text(apply_threads(config)));
+}
+
+std::string thread_text(int threads) { return fmt::format("{} {}", threads, threads == 1 ? "thread" : "threads"); }
+
 }   // namespace patency::app

@@ -21,6 +21,11 @@ struct DeckOptions {
     deck::Case read() const;
     /// Bounds the threads: --threads, else numerics.threads, else one per core. Returns how many there are.
     int apply_threads(const deck::Case& config) const;
+    /// The same, and a line that begins a log: "case.yaml on 2 threads".
+    std::string title(const deck::Case& config) const;
 };
+
+/// "1 thread", "2 threads".
+std::string thread_text(int threads);
 
 }   // namespace patency::app

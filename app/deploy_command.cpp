@@ -39,13 +39,14 @@ deck::Case read(const DeployOptions& options) {
 
 ExitCode run(const DeployOptions& options) {
     const deck::Case config = read(options);
-    const int threads = options.deck.apply_threads(config);
+    const std::string title = options.deck.title(config);
     const OutputFolder folder(options.out);
     const bool has_mechanics = config.deployment.mode != deck::DeploymentMode::geometric;
     const bool goes_on = has_mechanics && !options.fresh && folder.has_checkpoint("deploy");
+    if (!options.fresh && !goes_on) expect_no_results(folder);
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
-    log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
+    log(LogLevel::info, title);
     const ExitCode code = run_deploy_stage(config, folder, Interruption(folder), log);
     if (code == ExitCode::ok || code == ExitCode::bar_missed)
         log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));

@@ -69,7 +69,7 @@ void print(const Vessel& vessel, const Estimate& e, const std::optional<Estimate
 void write(const EstimateOptions& o, const deck::Case& config, const Vessel& vessel, const Estimate& e,
            const std::optional<EstimateBand>& band) {
     const OutputFolder folder(o.out);
-    expect_no_results_but_estimates(folder);
+    expect_no_results(folder, "");
     folder.clear();
     write_summary(folder.file("summary.json"), estimate_summary(config, vessel, e, band));
     const Pullback p = estimate_pullback(vessel, e);

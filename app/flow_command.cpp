@@ -22,13 +22,13 @@ struct FlowOptions {
 
 ExitCode run(const FlowOptions& options) {
     const deck::Case config = options.deck.read();
-    const int threads = options.deck.apply_threads(config);
+    const std::string title = options.deck.title(config);
     const OutputFolder folder(options.out);
     const bool goes_on = !options.fresh && folder.has_checkpoint("flow");
     if (!options.fresh && !goes_on) expect_no_other_results(folder, config);
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
-    log(LogLevel::info, fmt::format("{} on {} threads", options.deck.path, threads));
+    log(LogLevel::info, title);
     const ExitCode code = run_flow_stage(config, folder, Interruption(folder), log);
     if (code == ExitCode::ok || code == ExitCode::bar_missed)
         log(LogLevel::info, fmt::format("the page: {}", write_report(folder.root(), PATENCY_VERSION).string()));

@@ -182,7 +182,7 @@ private:
 
 ExitCode run(const RunOptions& options) {
     const deck::Case config = options.deck.read();
-    const std::string title = fmt::format("{} on {} threads", options.deck.path, options.deck.apply_threads(config));
+    const std::string title = options.deck.title(config);
     const OutputFolder folder(options.out);
     if (!config.solids.empty()) return run_solid_stage(config, folder, title, options.fresh);
     const std::vector<std::string> stages = stages_of(config, options.stages);

@@ -21,9 +21,9 @@ struct SolidOptions {
 
 ExitCode run(const SolidOptions& options) {
     const deck::Case config = options.deck.read();
-    const int threads = options.deck.apply_threads(config);
+    const std::string title = options.deck.title(config);
     const OutputFolder folder(options.out);
-    return run_solid_stage(config, folder, fmt::format("{} on {} threads", options.deck.path, threads), options.fresh);
+    return run_solid_stage(config, folder, title, options.fresh);
 }
 
 }   // namespace

@@ -11,6 +11,7 @@ namespace patency::app {
 
 ExitCode run_solid_stage(const deck::Case& config, const OutputFolder& folder, std::string_view heading, bool fresh) {
     const bool goes_on = !fresh && folder.has_checkpoint("solid");
+    if (!fresh && !goes_on) expect_no_results(folder);
     if (!goes_on) folder.clear();
     const Log log = make_run_log(folder, goes_on);
     log(LogLevel::info, heading);

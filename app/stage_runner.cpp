@@ -33,9 +33,10 @@ Json origin_of_results(const OutputFolder& folder) {
     if (!std::filesystem::exists(folder.file("summary.json"))) return nullptr;
     const Json summary = read_summary(folder.file("summary.json"));
     if (!summary.is_object()) return nullptr;
-    return summary.contains("made_from") ? summary["made_from"]
-           : summary.contains("deploy")  ? Json("deploy")
-                                         : Json(nullptr);
+    if (summary.contains("made_from")) return summary["made_from"];
+    if (summary.contains("solids")) return Json("solids");
+    const bool is_implanted = summary.contains("deploy") && summary["deploy"].value("is_mechanical", false);
+    return is_implanted ? Json("deploy") : Json(nullptr);
 }
 
 }   // namespace
@@ -49,11 +50,11 @@ void expect_no_other_results(const OutputFolder& folder, const deck::Case& confi
             folder.root().string()));
 }
 
-void expect_no_results_but_estimates(const OutputFolder& folder) {
+void expect_no_results(const OutputFolder& folder, std::string_view advice) {
     if (!origin_of_results(folder).is_null())
         throw CheckpointError(
-            fmt::format("'{}' holds results of another command, which an estimate would replace; choose another folder",
-                        folder.root().string()));
+            fmt::format("'{}' holds results of another command, which this one would replace; choose another folder{}",
+                        folder.root().string(), advice));
 }
 
 Log make_run_log(const OutputFolder& folder, bool goes_on) {

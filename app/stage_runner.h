@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "interruption.h"
 #include "patency/base/errors.h"
@@ -20,8 +21,9 @@ Log make_run_log(const OutputFolder& folder, bool goes_on);
 /// Throws CheckpointError where a folder holds results of another deck, other inputs, another version or another command: they are
 /// not removed unasked.
 void expect_no_other_results(const OutputFolder& folder, const deck::Case& config);
-/// The same for a command whose results do not say what they were made from.
-void expect_no_results_but_estimates(const OutputFolder& folder);
+/// The same for a command whose results do not say what they were made from: where it cannot go on with those in the folder, all but
+/// those of a second, as estimates are, must stay.
+void expect_no_results(const OutputFolder& folder, std::string_view advice = ", or --fresh to replace them");
 
 /// On the terminal: one line that is rewritten, or lines now and then where there is none.
 Progress make_progress();

@@ -133,8 +133,8 @@ ExitCode run(const SweepOptions& options) {
     const int at_once = std::clamp(options.jobs > 0 ? options.jobs : threads, 1, std::max(1, int(to_run.size())));
     const Log log = make_run_log(folder, !options.fresh);
     const auto say = [&](const std::string& line) { log(LogLevel::info, line); };
-    say(fmt::format("{}: {} runs, {} of them done before; {} at once, {} threads each", options.deck.path,
-                    variants.size(), variants.size() - to_run.size(), at_once, std::max(1, threads / at_once)));
+    say(fmt::format("{}: {} runs, {} of them done before; {} at once, {} each", options.deck.path, variants.size(),
+                    variants.size() - to_run.size(), at_once, thread_text(std::max(1, threads / at_once))));
     std::vector<Job> jobs;
     for (const std::size_t row : to_run) jobs.push_back(job_of(options, variants[row], std::max(1, threads / at_once)));
     const Interruption interruption(folder);

@@ -281,6 +281,8 @@ TEST_F(Commands, other_results_are_replaced_only_if_asked) {
     const std::string summary = content(folder_ / "out" / "summary.json");
     EXPECT_EQ(patency(estimate).exit_code, 8);
     EXPECT_EQ(flow(other), 8);
+    for (const char* command : {"deploy", "deploy --mode geometric", "solid"})   // which this deck has nothing for
+        EXPECT_EQ(patency(fmt::format("{} {} -o {}", command, deck, out())).exit_code, 8) << command;
     EXPECT_EQ(content(folder_ / "out" / "summary.json"), summary);
     EXPECT_EQ(flow(other + " --fresh"), 0);
 }

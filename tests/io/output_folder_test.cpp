@@ -19,7 +19,10 @@ TEST(OutputFolder, IsMadeAndOpenedAgain) {
         EXPECT_TRUE(std::filesystem::is_directory(scratch / "a/b/frames"));
         EXPECT_TRUE(std::filesystem::is_directory(scratch / "a/b/checkpoint"));
         EXPECT_TRUE(is_output_folder(scratch / "a/b"));
+        put(scratch / "a/b/frames/fluid_000000.vtp", "");
     }
+    EXPECT_TRUE(std::filesystem::exists(scratch / "a/b/frames/fluid_000000.vtp"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "a/b/checkpoint")) << "nothing was in it";
 }
 
 TEST(OutputFolder, TakesAnEmptyFolderAndNoForeignOne) {

@@ -80,7 +80,11 @@ OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : root_(std::move(other.root_)), lock_(std::exchange(other.lock_, -1)) {}
 
 OutputFolder::~OutputFolder() {
-    if (lock_ >= 0) ::close(lock_);
+    if (lock_ < 0) return;
+    std::error_code error;
+    for (std::string_view folder : result_folders)
+        fs::remove(root_ / folder, error);   // one that stayed empty; others stay
+    ::close(lock_);
 }
 
 fs::path OutputFolder::checkpoint(std::string_view stage) const {

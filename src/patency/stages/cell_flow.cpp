@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/cell_flow.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "patency/base/errors.h"
@@ -209,13 +206,10 @@ Outcome run_cell_flow(const deck::Case& config, const FlowStage& stage,
     summary["made_from"] = origin_summary(origin_of(config, stage.binary_hash));
     if (config.has_vessel()) add_vessel_results(summary, *scene, stage.folder);
     write_summary(stage.folder.file("summary.json"), summary);
-    write_summary(stage.folder.file("timing.json"),
-                  {{"build", {{"cpu_s", build_cpu}, {"wall_s", build_wall}}},   // the coarse solution included
-                   {"flow", {{"cpu_s", watch.cpu() - build_cpu}, {"wall_s", watch.wall() - build_wall}}},
-                   {"resumed", false},
-                   {"threads", omp_get_max_threads()},
-                   {"machine", machine_name()},
-                   {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}});
+    write_timing(stage.folder,
+                 {{"build", {{"cpu_s", build_cpu}, {"wall_s", build_wall}}},   // the coarse solution included
+                  {"flow", {{"cpu_s", watch.cpu() - build_cpu}, {"wall_s", watch.wall() - build_wall}}},
+                  {"resumed", false}});
     say(fmt::format("done: {} steps in {:.1f} s", scene->solution.history.size(), watch.wall()));
     if (scene->solution.is_damped)
         say("solved by the damped transport (THEORY 18.5), for the sharp one finds no rest here: a pressure drop may "

@@ -2,7 +2,6 @@
 #include "patency/stages/deploy_geometric.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -81,9 +80,7 @@ void deploy_geometrically(const deck::Case& config, const DeployStage& stage) {
     deploy["foreshortening_percent"] = 100 * foreshortening(place.pattern.length, shape.length);
     for (const char* key : {"recoil_percent", "penetration_over_spacing", "kinetic_to_internal"}) deploy[key] = nullptr;
     write_summary(stage.folder.file("summary.json"), {{"deploy", deploy}});
-    write_summary(stage.folder.file("timing.json"), {{"machine", machine_name()},
-                                                     {"threads", omp_get_max_threads()},
-                                                     {"deploy", {{"cpu_s", watch.cpu()}, {"wall_s", watch.wall()}}}});
+    write_timing(stage.folder, {{"deploy", {{"cpu_s", watch.cpu()}, {"wall_s", watch.wall()}}}});
     say(fmt::format(
         "done without mechanics: narrowest {:.3g} mm, before {:.3g} mm; residual stenosis {:.1f} %; {:.1f} s",
         1e3 * gain.narrowest_after, 1e3 * gain.narrowest_before, 100 * gain.residual_stenosis(), watch.wall()));

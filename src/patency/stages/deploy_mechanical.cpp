@@ -2,7 +2,6 @@
 #include "patency/stages/deploy_mechanical.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -388,13 +387,10 @@ private:
         deploy["steps"] = scene_->solids.steps;
         write_summary(stage_.folder.file("summary.json"), {{"deploy", deploy}});
         const double particle_steps = double(scene_->solids.steps) * double(stent_->body->particles().size());
-        write_summary(stage_.folder.file("timing.json"),
-                      {{"machine", machine_name()},
-                       {"threads", omp_get_max_threads()},
-                       {"deploy",
-                        {{"cpu_s", watch_.cpu()},
-                         {"wall_s", watch_.wall()},
-                         {"stent_particle_steps_per_s", particle_steps / watch_.wall()}}}});
+        write_timing(stage_.folder, {{"deploy",
+                                      {{"cpu_s", watch_.cpu()},
+                                       {"wall_s", watch_.wall()},
+                                       {"stent_particle_steps_per_s", particle_steps / watch_.wall()}}}});
         if (stage_.progress)
             stage_.progress->finish({.stage = "deploy", .fraction = 1, .time = time(), .step = scene_->solids.steps});
         say(

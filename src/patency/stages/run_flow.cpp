@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/run_flow.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -144,7 +141,7 @@ private:
         }
         if (stage_.progress) stage_.progress->finish(progress());
         write_results();
-        write_summary(stage_.folder.file("timing.json"), make_timing());
+        write_timing(stage_.folder, make_timing());
         say(fmt::format("done: {} {} in {:.1f} s", scene_->acoustic_steps - steps_before_,
                         is_on_cells() ? "iterations" : "acoustic steps", watch_.wall() - build_wall_));
         if (!window_->is_watched() || window_->is_settled()) return Outcome::done;
@@ -262,10 +259,7 @@ private:
                  {{"cpu_s", cpu},
                   {"wall_s", wall},
                   {"particle_steps_per_cpu_s", cpu > 0 ? double(scene_->fluid.size()) * steps / cpu : 0.0}}},
-                {"resumed", is_resumed_},
-                {"threads", omp_get_max_threads()},
-                {"machine", machine_name()},
-                {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
+                {"resumed", is_resumed_}};
     }
 
     /// Writes the fastest particles, those without numbers first, and says what can be looked at.

@@ -2,7 +2,6 @@
 #include "patency/stages/run_solids.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +99,7 @@ private:
         }
         if (stage_.progress) stage_.progress->finish(progress());
         write_summary(stage_.folder.file("summary.json"), solid_summary(*scene_));
-        write_summary(stage_.folder.file("timing.json"), timing());
+        write_timing(stage_.folder, {{"solids", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}}}});
         say(fmt::format("done: {} steps in {:.1f} s", scene_->steps, watch_.wall()));
         return true;
     }
@@ -170,12 +169,6 @@ private:
         }
         data.arrays = {velocity, volume};
         return data;
-    }
-
-    nlohmann::ordered_json timing() const {
-        return {{"machine", machine_name()},
-                {"threads", omp_get_max_threads()},
-                {"solids", {{"cpu_s", watch_.cpu()}, {"wall_s", watch_.wall()}}}};
     }
 
     const deck::Case& config_;

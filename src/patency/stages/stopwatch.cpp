@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/stopwatch.h"
 
+#include <fmt/chrono.h>
+#include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include <array>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "patency/io/summary.h"
 
 namespace patency {
 
@@ -13,10 +21,13 @@ double Stopwatch::cpu_now() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-std::string machine_name() {
-    char name[256] = {};
-    gethostname(name, sizeof name - 1);
-    return name;
+void write_timing(const OutputFolder& folder, nlohmann::ordered_json times) {
+    std::array<char, 256> machine{};
+    gethostname(machine.data(), machine.size() - 1);
+    times["threads"] = omp_get_max_threads();
+    times["machine"] = machine.data();
+    times["date"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    write_summary(folder.file("timing.json"), times);
 }
 
 }   // namespace patency

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
-#include <string>
+#include <nlohmann/json_fwd.hpp>
+
+#include "patency/io/output_folder.h"
 
 namespace patency {
 
@@ -19,6 +21,7 @@ private:
     double cpu_ = cpu_now();
 };
 
-std::string machine_name();
+/// Writes timing.json: the stages' times, then what they depend on besides: threads, machine and date (UTC). Throws FileError.
+void write_timing(const OutputFolder& folder, nlohmann::ordered_json times);
 
 }   // namespace patency
