@@ -243,6 +243,27 @@ TEST(SurfaceContact, WhatStandsBeforeAStripThatTurnedOverIsOutside) {
     EXPECT_LT(contact->report().deepest, 0.3 * spacing);
 }
 
+// Blocks of one lattice: every vertex that is in lies as near to several elements of a plane. A search from where the block came from finds
+// them in another order than one from where it is, as after a restart.
+TEST(SurfaceContact, TheOrderOfASearchChoosesNoElement) {
+    Body below(fill_box({-5e-3, -4e-3, -4e-3}, {5e-3, 0, 4e-3}, spacing, false), spacing, false),
+        above(fill_box({-3e-3, 0, -2e-3}, {3e-3, 4e-3, 2e-3}, spacing, false), spacing, false);
+    const Vec3 aside = spacing * Vec3{0.3, 0.4, 0.2};
+    below.move({}), above.move(aside);
+    const auto contact = [&] {
+        return make_surface_contact(*above.surface, *below.surface, {.friction = 0, .damping = 0, .step = step});
+    };
+    const auto came = contact();
+    came->add_forces(0, 0);
+    EXPECT_EQ(came->report().touching, 0u);
+    above.move(-aside - Vec3{0, 0.1 * spacing, 0});
+    came->add_forces(0, 0);
+    const auto restarted = contact();
+    restarted->add_forces(0, 0);
+    EXPECT_GT(restarted->report().touching, 20u);
+    EXPECT_EQ(came->state(), restarted->state());
+}
+
 TEST(PlaneContact, PushesOutWhatIsBehind) {
     Body block(fill_box({0, 0, 0}, {5e-3, 4e-3, 0}, spacing, true), spacing, true);
     const auto contact =

@@ -73,12 +73,14 @@ Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& ot
         const std::uint32_t e = near->element;
         const Sight sight(other, e, x);
         const double distance = norm(sight.way), here = sight.behind(other, search.facing(e));
-        // Where an edge or a corner is nearest its elements tie, and the one that x stands out of most tells the side.
+        // Where an edge or a corner is nearest its elements tie, and the one that x stands out of most tells the side; of those in one plane
+        // the first by number, in whatever order a search found them.
         const bool is_tie = std::abs(distance - nearest) <= 1e-9 * nearest;
         if (!is_tie && distance > nearest) continue;
         if (!is_tie) thin.reset();
         if (search.facing(e) != e) thin = e;
-        if (is_tie && std::abs(here) <= std::abs(behind)) continue;
+        const double further = std::abs(here) - std::abs(behind);
+        if (is_tie && (further < 0 || (further == 0 && e > hit.element))) continue;
         nearest = distance, behind = here;
         hit = {distance, distance > 0 ? sight.way / distance : normalized(other.area_vector(search.facing(e))), e,
                sight.weights};
