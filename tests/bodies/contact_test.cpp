@@ -220,6 +220,24 @@ TEST(SurfaceContact, WhatHoversOverAThinStripIsOutside) {
     EXPECT_EQ(contact->report().touching, 0u);
 }
 
+// Over the strip and farther from the plane of the side than from the top: the side is as near but for the strip's width, and tells nothing.
+TEST(SurfaceContact, WhatHoversOverAThinStripIsNotBehindTheSide) {
+    const StrippedBlock strip;
+    Body block(strip.fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
+    block.move({}), ball.move({});
+    const auto& places = ball.surface->position;
+    const Vec3 lowest =
+        *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
+    ball.move(strip.middle + 0.02 * strip.in + Vec3{0, 0.005 * spacing, 0} - lowest);
+    const auto contact =
+        make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
+    contact->add_forces(0, 0);
+    EXPECT_EQ(contact->report().touching, 0u);
+    ball.move(Vec3{0, -0.01 * spacing, 0});
+    contact->add_forces(0, 0);
+    EXPECT_GT(contact->report().touching, 0u);
+}
+
 // The strip has turned over, and the top hangs over the side: what stands before its edge, a trifle below its plane, is before the side, which
 // the strip keeps apart from the edge.
 TEST(SurfaceContact, WhatStandsBeforeAStripThatTurnedOverIsOutside) {

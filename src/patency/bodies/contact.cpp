@@ -40,13 +40,13 @@ struct Sight {
     }
 };
 
-/// How far x lies behind what it stands out of most beside a thin element, among elements that are not thin and as near but for its
-/// width: the element keeps them apart from the edge that they would share.
+/// How far x lies behind what it sees most squarely beside a thin element, among that (`behind` it at the distance `nearest`) and elements
+/// that are not thin and as near but for its width: it keeps them apart from the edge that they would share.
 double behind_beside(const SolidSurface& surface, const ContactSearch& search, std::uint32_t thin, const Vec3& x,
                      double nearest, double behind) {
     const auto& elements = surface.mesh().elements;
     const auto& at = surface.elements_at();
-    double longest = 0;
+    double longest = 0, away = nearest;   // away: how far what is seen most squarely is
     for (std::size_t k = 0; k < 3; ++k)
         longest = std::max(longest,
                            norm(surface.position[elements[thin][k]] - surface.position[elements[thin][(k + 1) % 3]]));
@@ -54,8 +54,9 @@ double behind_beside(const SolidSurface& surface, const ContactSearch& search, s
         for (const std::uint32_t* e = at.begin(corner); e < at.end(corner); ++e) {
             if (search.facing(*e) != *e) continue;
             const Sight sight(surface, *e, x);
-            if (norm(sight.way) > nearest + ContactSearch::thin * longest) continue;
-            if (const double here = sight.behind(surface, *e); std::abs(here) > std::abs(behind)) behind = here;
+            const double distance = norm(sight.way), here = sight.behind(surface, *e);
+            if (distance > nearest + ContactSearch::thin * longest) continue;
+            if (std::abs(here) * away > std::abs(behind) * distance) behind = here, away = distance;
         }
     return behind;
 }
