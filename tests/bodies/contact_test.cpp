@@ -204,16 +204,18 @@ struct StrippedBlock {
     }
 };
 
+Vec3 lowest_of(const SolidSurface& surface) {
+    const auto& places = surface.position;
+    return *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
+}
+
 // Over a strip of thin elements along an edge, a trifle behind the plane of the side that meets it there: outside too.
 TEST(SurfaceContact, WhatHoversOverAThinStripIsOutside) {
     const StrippedBlock strip;
     const Vec3 &middle = strip.middle, &in = strip.in;
     Body block(strip.fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
     block.move({}), ball.move({});
-    const auto& places = ball.surface->position;
-    const Vec3 lowest =
-        *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
-    block.move({}), ball.move(middle + 0.01 * in + Vec3{0, 0.1 * spacing, 0} - lowest);
+    block.move({}), ball.move(middle + 0.01 * in + Vec3{0, 0.1 * spacing, 0} - lowest_of(*ball.surface));
     const auto contact =
         make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
     contact->add_forces(0, 0);
@@ -225,10 +227,7 @@ TEST(SurfaceContact, WhatHoversOverAThinStripIsNotBehindTheSide) {
     const StrippedBlock strip;
     Body block(strip.fill, spacing, false), ball(fill_sphere({0, 4e-3, 0}, 4e-3, spacing), spacing, false);
     block.move({}), ball.move({});
-    const auto& places = ball.surface->position;
-    const Vec3 lowest =
-        *std::min_element(places.begin(), places.end(), [](const Vec3& u, const Vec3& v) { return u.y < v.y; });
-    ball.move(strip.middle + 0.02 * strip.in + Vec3{0, 0.005 * spacing, 0} - lowest);
+    ball.move(strip.middle + 0.02 * strip.in + Vec3{0, 0.005 * spacing, 0} - lowest_of(*ball.surface));
     const auto contact =
         make_surface_contact(*ball.surface, *block.surface, {.friction = 0, .damping = 0, .step = step});
     contact->add_forces(0, 0);
