@@ -36,6 +36,6 @@ set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 file(GLOB timed CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/patency/verify/bench_*.cpp)
 set_source_files_properties(${timed} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3> SKIP_PRECOMPILE_HEADERS ON)
 
-# OpenVDB's templates are a third quicker to compile so, and no slower where they run: most of that is in its library.
+# What runs of OpenVDB is in its library, compiled: its headers are read quickly.
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/patency/shape/surface_voxels.cpp PROPERTIES
   COMPILE_OPTIONS $<$<CONFIG:Release>:-O1> SKIP_PRECOMPILE_HEADERS ON)
