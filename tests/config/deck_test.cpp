@@ -131,7 +131,7 @@ TEST(Deck, ASettingOfNullTakesAKeyAway) {
     EXPECT_EQ(c.numerics.spacing, 0);
     EXPECT_EQ(c.numerics.across, 16);
     EXPECT_EQ(parse_case(format_case(c)), c);   // with one of the two only
-    EXPECT_EQ(parse_case(pipe_deck, "deck", "", {"numerics.nothing=null"}), parse_case(pipe_deck));
+    EXPECT_EQ(parse_case(pipe_deck, "deck", "", {"numerics.across=null"}), parse_case(pipe_deck));   // was not there
 }
 
 TEST(Deck, FlowInAStillVesselIsSolvedOnCellsUnlessItSaysOtherwise) {

@@ -320,6 +320,10 @@ TEST(Mistakes, InSettings) {
     EXPECT_EQ(mistakes_in(pipe_deck, {"numerics.spacng=5 mm"}),
               "--set numerics.spacng=5 mm: numerics.spacng: unknown key. Did you mean \"spacing\"?\n1 mistake; nothing "
               "was run.");
+    EXPECT_EQ(mistakes_in(pipe_deck, {"numerics.spacng=null"}),   // nothing to take away either
+              "--set numerics.spacng=null: numerics.spacng: unknown key. Did you mean \"spacing\"?\n1 mistake; nothing "
+              "was run.");
+    EXPECT_NE(mistakes_in(pipe_deck, {"openings.outlet.presure="}), "accepted");
     for (const char* bad : {"", "=", "numerics", "numerics.spacing", "numerics..spacing=1 mm", "numerics.spacing=[",
                             "case.name.x=1", "version.1=2", ".=1"})
         EXPECT_NE(mistakes_in(pipe_deck, {bad}), "accepted") << bad;

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "patency/base/errors.h"
 #include "patency/base/text.h"
@@ -47,9 +48,11 @@ Node parse_deck(std::string_view text, const std::string& source, Mistakes& mist
     refuse(mistakes);
 }
 
+bool is_key_of_deck(std::span<const std::string> keys) { return has_path(table_of<Case>(), keys); }
+
 Case interpret(Node root, const std::filesystem::path& folder, const Settings& settings,
                const FindOpeningNames& find_names, Mistakes& mistakes) {
-    for (const std::string& setting : settings) apply_setting(root, setting, mistakes);
+    for (const std::string& setting : settings) apply_setting(root, setting, mistakes, is_key_of_deck);
     Case c;
     Scope scope;
     scope.mistakes = &mistakes;
@@ -107,7 +110,8 @@ std::vector<NamedCase> parse_runs(std::string_view text, const std::string& sour
         Mistakes own;
         Node variant = root;
         const Node& set = *runs_node.items[i].find("set");
-        for (std::size_t k = 0; k < set.items.size(); ++k) set_at(variant, set.keys[k].text, set.items[k], own);
+        for (std::size_t k = 0; k < set.items.size(); ++k)
+            set_at(variant, set.keys[k].text, set.items[k], own, is_key_of_deck);
         variants.push_back({holder.runs[i].name, interpret(std::move(variant), folder, settings, find_names, own)});
         mistakes.merge(own, " (in run " + double_quoted(holder.runs[i].name) + ")", common);
     }

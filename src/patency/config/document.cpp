@@ -170,11 +170,11 @@ void remove_entry(Node& map, std::string_view key) {
         }
 }
 
-void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mistakes) {
+void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mistakes, const IsKey& is_key) {
     Node *node = &root, *above = nullptr;
-    std::string last;
-    for (const std::string& key : split(path, '.')) {
-        above = node, last = key;
+    const std::vector<std::string> keys = split(path, '.');
+    for (const std::string& key : keys) {
+        above = node;
         if (key.empty()) return mistakes.add(value.place, path, "is not a path of keys like \"numerics.spacing\"");
         if (node->kind == Node::Kind::list) {
             std::size_t index = 0;
@@ -197,10 +197,12 @@ void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mist
         node = node->find(key);
     }
     *node = value;
-    if (value.kind == Node::Kind::null && above && above->kind == Node::Kind::map) remove_entry(*above, last);
+    // What no deck has stays, empty as it is, for the reader to name it.
+    if (value.kind == Node::Kind::null && above->kind == Node::Kind::map && is_key(keys))
+        remove_entry(*above, keys.back());
 }
 
-void apply_setting(Node& root, std::string_view setting, Mistakes& mistakes) {
+void apply_setting(Node& root, std::string_view setting, Mistakes& mistakes, const IsKey& is_key) {
     const std::string source = "--set " + std::string(setting);
     const Place place{std::make_shared<const std::string>(source), 0, 0};
     const std::size_t equals = setting.find('=');
@@ -215,7 +217,7 @@ void apply_setting(Node& root, std::string_view setting, Mistakes& mistakes) {
         for (Node& item : node.items) self(self, item);
     };
     forget_lines(forget_lines, value);
-    set_at(root, trimmed(setting.substr(0, equals)), value, mistakes);
+    set_at(root, trimmed(setting.substr(0, equals)), value, mistakes, is_key);
 }
 
 std::string format_flow(const Node& node) {

@@ -3,7 +3,9 @@
 // the list of what is wrong with it. What keys mean is schema.h's business.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,10 +75,12 @@ Place place_of(const Node& root, std::string_view path);
 /// was understood. Never throws for what the text contains.
 Node parse_yaml(std::string_view text, const std::string& source, Mistakes& mistakes);
 
+/// Whether the keys of a path are those of a deck.
+using IsKey = std::function<bool(std::span<const std::string>)>;
 /// Apply "key.path=value" (the value is YAML; list items by number: "runs.0.name") to a tree.
-void apply_setting(Node& root, std::string_view setting, Mistakes& mistakes);
-/// Put a value at a path like "numerics.spacing", making maps on the way.
-void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mistakes);
+void apply_setting(Node& root, std::string_view setting, Mistakes& mistakes, const IsKey& is_key);
+/// Put a value at a path like "numerics.spacing", making maps on the way. An empty one takes the key away.
+void set_at(Node& root, std::string_view path, const Node& value, Mistakes& mistakes, const IsKey& is_key);
 
 /// The tree as YAML text: maps in blocks, lists of scalars and small maps on one line.
 std::string format_yaml(const Node& root);

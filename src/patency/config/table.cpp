@@ -75,6 +75,14 @@ std::string find_path(const Table& table, const std::string& path, std::string_v
     return {};
 }
 
+bool has_path(const Table& table, std::span<const std::string> keys) {
+    const Row* row = keys.empty() ? nullptr : table.find(keys.front());
+    if (!row) return false;
+    const Form* form = &row->form;
+    for (keys = keys.subspan(1); !keys.empty() && !form->item.empty(); keys = keys.subspan(1)) form = &form->item[0];
+    return keys.empty() || (form->table && has_path(form->table(), keys));
+}
+
 Node write_number(double value, const Row& row, const Scope& scope) {
     if (row.unit.empty()) return make_scalar(format_number(value), false);
     if (row.unit != signal_unit) return make_scalar(format_quantity(value, row.unit), true);

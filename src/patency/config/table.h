@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -114,6 +115,8 @@ std::string example_text(const Row& row);
 std::string joined_path(const std::string& path, std::string_view key);
 /// The path of the first key of that name in a record or the records in it; empty if there is none.
 std::string find_path(const Table& table, const std::string& path, std::string_view key);
+/// Whether a path's keys are those of a record and the records in it; names of a map and numbers of a list are any.
+bool has_path(const Table& table, std::span<const std::string> keys);
 
 /// The table of a record of case.h (schema.cpp).
 template <class T>
