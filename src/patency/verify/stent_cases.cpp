@@ -230,21 +230,20 @@ void stent_free_figures(const Results& results, FigureList& figures) {
 }   // namespace
 
 std::vector<VerifyCase> stent_cases() {
-    const auto stent = [](const char* name, const char* title, Level level, auto measure, auto figures) {
+    const auto stent = [](const char* name, const char* title, auto measure, auto figures) {
         return VerifyCase{.name = name,
                           .title = title,
-                          .level = level,
+                          .level = Level::full,
                           .is_full = {},
                           .measure = {},
                           .measure_solids = measure,
                           .figures = figures,
                           .pictures = {}};
     };
-    return {stent("plastic_ring", "A thin ring of metal that a balloon opens, and what springs back", Level::quick,
+    return {stent("plastic_ring", "A thin ring of metal that a balloon opens, and what springs back",
                   measure_plastic_ring, plastic_ring_figures),
-            stent("stent_ring", "A ring of crowns, opened to 3.3 mm and let go", Level::full, measure_stent,
-                  stent_ring_figures),
-            stent("stent_free", "The open-cell stent, opened freely to 3.3 mm and let go", Level::full, measure_stent,
+            stent("stent_ring", "A ring of crowns, opened to 3.3 mm and let go", measure_stent, stent_ring_figures),
+            stent("stent_free", "The open-cell stent, opened freely to 3.3 mm and let go", measure_stent,
                   stent_free_figures)};
 }
 
