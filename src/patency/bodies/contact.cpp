@@ -3,95 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "patency/base/parallel.h"
-#include "patency/bodies/closest_point.h"
+#include "patency/bodies/contact_hit.h"
 #include "patency/bodies/contact_search.h"
 #include "patency/physics/solid/contact.h"
 
 namespace patency {
 
 namespace {
-
-/// Where a vertex that is in would come out, or one that is out would go in.
-struct Hit {
-    double depth = 0;   ///< [m]; negative: it is out by that; zero: nothing is near
-    Vec3 normal;        ///< of the way out
-    std::uint32_t element = 0;
-    std::array<double, 3> weights{};   ///< of the element's corners
-};
-
-/// What a place x sees of an element: its nearest point.
-struct Sight {
-    std::array<double, 3> weights;   // of the element's corners
-    Vec3 way;                        // from x [m]
-
-    Sight(const SolidSurface& surface, std::uint32_t element, const Vec3& x) {
-        const auto& [ia, ib, ic] = surface.mesh().elements[element];
-        const Vec3 &a = surface.position[ia], &b = surface.position[ib], &c = surface.position[ic];
-        weights = surface.planar() ? closest_on_segment(x, a, b) : closest_on_triangle(x, a, b, c);
-        way = weights[0] * a + weights[1] * b + weights[2] * c - x;
-    }
-    /// How far x lies behind the plane of an element that faces like `facing`; negative: before it.
-    double behind(const SolidSurface& surface, std::uint32_t facing) const {
-        const Vec3 across = surface.area_vector(facing);
-        return dot(way, across) / norm(across);
-    }
-};
-
-/// How far x lies behind what it sees most squarely beside a thin element, among that (`behind` it at the distance `nearest`) and elements
-/// that are not thin and as near but for its width: it keeps them apart from the edge that they would share.
-double behind_beside(const SolidSurface& surface, const ContactSearch& search, std::uint32_t thin, const Vec3& x,
-                     double nearest, double behind) {
-    const auto& elements = surface.mesh().elements;
-    const auto& at = surface.elements_at();
-    double longest = 0, away = nearest;   // away: how far what is seen most squarely is
-    for (std::size_t k = 0; k < 3; ++k)
-        longest = std::max(longest,
-                           norm(surface.position[elements[thin][k]] - surface.position[elements[thin][(k + 1) % 3]]));
-    for (const std::uint32_t corner : elements[thin])
-        for (const std::uint32_t* e = at.begin(corner); e < at.end(corner); ++e) {
-            if (search.facing(*e) != *e) continue;
-            const Sight sight(surface, *e, x);
-            const double distance = norm(sight.way), here = sight.behind(surface, *e);
-            if (distance > nearest + ContactSearch::thin * longest) continue;
-            if (std::abs(here) * away > std::abs(behind) * distance) behind = here, away = distance;
-        }
-    return behind;
-}
-
-/// A vertex of one surface against the elements of another, the depth negative outside; clearance: how far it is from them at least, if it is not in.
-///                                                                                             THEORY (21.5)
-Hit find_hit(const SolidSurface& own, std::size_t vertex, const SolidSurface& other, const ContactSearch& search,
-             double& clearance) {
-    const Vec3& x = own.position[vertex];
-    double nearest = search.reach(), behind = 0;
-    Hit hit;
-    std::optional<std::uint32_t> thin;   // among the nearest
-    for (const auto* near = search.candidates().begin(vertex); near < search.candidates().end(vertex); ++near) {
-        if (near->distance - search.moved() > nearest * (1 + 1e-9)) break;   // nor can those behind it be nearer
-        const std::uint32_t e = near->element;
-        const Sight sight(other, e, x);
-        const double distance = norm(sight.way), here = sight.behind(other, search.facing(e));
-        // Where an edge or a corner is nearest its elements tie, and the one that x stands out of most tells the side; of those in one plane
-        // the first by number, in whatever order a search found them.
-        const bool is_tie = std::abs(distance - nearest) <= 1e-9 * nearest;
-        if (!is_tie && distance > nearest) continue;
-        if (!is_tie) thin.reset();
-        if (search.facing(e) != e) thin = e;
-        const double further = std::abs(here) - std::abs(behind);
-        if (is_tie && (further < 0 || (further == 0 && e > hit.element))) continue;
-        nearest = distance, behind = here;
-        hit = {distance, distance > 0 ? sight.way / distance : normalized(other.area_vector(search.facing(e))), e,
-               sight.weights};
-    }
-    if (thin) behind = behind_beside(other, search, *thin, x, nearest, behind);
-    const bool is_inside = behind > 0;
-    clearance = is_inside ? 0 : nearest;
-    if (!is_inside) hit.depth *= -1, hit.normal *= -1;
-    return hit;
-}
 
 /// What a vertex feels that is in, and what that costs.
 struct Touch {
@@ -174,9 +94,9 @@ public:
             if (is_in_[v] && touches_[v].damper != 0) damping_loss_ += losses_[v];
         last_step_ = dt;
         for_each_index(own_.size(), [&](std::size_t v) {
-            Hit hit;
+            ContactHit hit;
             if (is_in_[v] || !is_free(v)) {
-                hit = find_hit(own_, v, other_, search_, free_[v].clearance);
+                hit = find_contact_hit(own_.position[v], v, other_, search_, free_[v].clearance);
                 free_[v].moved = search_.moved();
             }
             const bool is_in = hit.depth > 0 || (hit.depth < 0 && stiffness(v) * hit.depth + held_[v] > 0);
@@ -189,7 +109,7 @@ public:
         });
         for (std::size_t v = 0; v < own_.size(); ++v) {   // few, in one order: reactions meet at vertices
             if (!is_in_[v]) continue;
-            const Hit& hit = hits_[v];
+            const ContactHit& hit = hits_[v];
             own_.force[v] += touches_[v].force;
             for (std::size_t k = 0; k < 3; ++k)
                 other_.force[other_.mesh().elements[hit.element][k]] -= hit.weights[k] * touches_[v].force;
@@ -211,7 +131,7 @@ public:
     }
     void add_to(std::vector<Contact::Push>& pushes, bool is_first) const {
         for (std::size_t v = 0; v < own_.size(); ++v) {
-            const Hit& hit = hits_[v];
+            const ContactHit& hit = hits_[v];
             if (hit.depth == 0) continue;
             if (is_first)
                 pushes.push_back({std::uint32_t(v), touches_[v].force});
@@ -224,7 +144,7 @@ public:
     void add_state(StateWriter& state) const {
         for (const double x : {friction_loss_, damping_loss_, deepest_, last_step_}) state.add(x);
         for (std::size_t v = 0; v < own_.size(); ++v) {
-            const Hit& hit = hits_[v];
+            const ContactHit& hit = hits_[v];
             state.add(stick_[v]), state.add(held_[v]), state.add(hit.depth), state.add(hit.normal),
                 state.add(double(hit.element));
             for (const double w : hit.weights) state.add(w);
@@ -236,7 +156,7 @@ public:
     void restore(StateReader& state) {
         for (double* x : {&friction_loss_, &damping_loss_, &deepest_, &last_step_}) *x = state.next();
         for (std::size_t v = 0; v < own_.size(); ++v) {
-            Hit& hit = hits_[v];
+            ContactHit& hit = hits_[v];
             stick_[v] = state.next_vector(), held_[v] = state.next(), hit.depth = state.next(),
             hit.normal = state.next_vector(), hit.element = std::uint32_t(state.next());
             for (double& w : hit.weights) w = state.next();
@@ -256,7 +176,7 @@ private:
 
     /// Against the place of the other surface that it hit.
     Vec3 velocity(std::size_t v) const {
-        const Hit& hit = hits_[v];
+        const ContactHit& hit = hits_[v];
         const auto& corners = other_.mesh().elements[hit.element];
         Vec3 moving{};
         for (std::size_t k = 0; k < 3; ++k) moving += hit.weights[k] * other_.velocity(corners[k]);
@@ -270,7 +190,7 @@ private:
     }
 
     Touch touch_at(std::size_t v, double dt) {
-        const Hit& hit = hits_[v];
+        const ContactHit& hit = hits_[v];
         const double k = stiffness(v);
         if (numerics_.holds) held_[v] = held_push(held_[v], k, hit.depth, dt, numerics_.step);
         return touch(numerics_, k, hit.depth, held_[v], hit.normal, velocity(v), dt, stick_[v]);
@@ -281,7 +201,7 @@ private:
     ContactSearch search_;
     std::vector<Vec3> stick_;
     std::vector<double> held_;   // of the pushes [N]
-    std::vector<Hit> hits_;
+    std::vector<ContactHit> hits_;
     std::vector<std::uint8_t> is_in_;   // whether it is pushed: in, or held
     std::vector<Free> free_;
     std::vector<Touch> touches_;
