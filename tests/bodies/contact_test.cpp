@@ -82,7 +82,7 @@ TEST_P(Contacts, PushIsEqualAndOppositeAndTheSlopeOfItsEnergy) {
 
 // A push that lasts comes to ten times its spring's, and keeps on until the vertex would pull; then nothing of it is left.
 TEST_P(Contacts, WhatLastsIsHeldButNeverPulls) {
-    const ContactNumerics numerics{.friction = 0, .damping = 0, .step = step, .holds = true};
+    const ContactNumerics numerics{.friction = 0, .damping = 0, .step = step, .hold = hold_at_rest};
     const auto contact = make_surface_contact(*block.surface, *ball.surface, numerics);
     const auto push_at = [&](double y, int steps) {
         Vec3 on_block{}, on_ball{};
@@ -99,8 +99,8 @@ TEST_P(Contacts, WhatLastsIsHeldButNeverPulls) {
     block.move({}), ball.move({});
     plain->add_forces(0, step);
     const double spring = ball.load().y;
-    EXPECT_NEAR(first / spring, 1 + held_ratio / held_steps, 1e-9);
-    EXPECT_NEAR(last / spring, 1 + held_ratio, 1e-6);
+    EXPECT_NEAR(first / spring, 1 + hold_at_rest.ratio / hold_at_rest.steps, 1e-9);
+    EXPECT_NEAR(last / spring, 1 + hold_at_rest.ratio, 1e-6);
     const auto before = contact->state();
     const double a_little_out = push_at(0.25e-3, 1);   // farther than it was in
     EXPECT_GT(a_little_out, 2 * spring);

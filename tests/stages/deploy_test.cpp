@@ -237,6 +237,7 @@ TEST(DeployProgram, CrimpsOpensAndLetsGo) {
     EXPECT_DOUBLE_EQ(p.balloon(0), 0.5e-3);           // the crimped stent's inner face
     EXPECT_DOUBLE_EQ(p.balloon(p.open_to), 1.5e-3);   // the open one's
     EXPECT_DOUBLE_EQ(p.balloon(p.phases[3].end), 1.5e-3);
+    EXPECT_DOUBLE_EQ(p.balloon(0.5 * (p.phases[3].end + p.phases[4].end)), 1.3e-3) << "slowly while the stent recoils";
     EXPECT_DOUBLE_EQ(p.balloon(p.end()), 0.5e-3);
     EXPECT_FALSE(p.predilation);
 }

@@ -7,7 +7,6 @@
 #include "patency/base/parallel.h"
 #include "patency/bodies/contact_hit.h"
 #include "patency/bodies/contact_search.h"
-#include "patency/physics/solid/contact.h"
 
 namespace patency {
 
@@ -15,14 +14,14 @@ namespace {
 
 /// What a vertex feels that is in, and what that costs.
 struct Touch {
-    Vec3 force;                                              // [N]
-    double push = 0, damper = 0, approach = 0, energy = 0;   // N, N, m/s before the step, J
-    double friction_loss = 0;                                // in this step [J]
+    Vec3 force;                                                // [N]
+    double push = 0, unsprung = 0, approach = 0, energy = 0;   // N, N, m/s before the step, J
+    double friction_loss = 0;                                  // in this step [J]
 };
 
-/// What a damper took in the step before, at the mean of the velocities before and after it: what it took indeed. [J]
+/// What a damper and what is held took in the step before, at the mean of the velocities before and after it, as they did. [J]
 double damping_loss(const Touch& then, double approach_now, double step) {
-    return 0.5 * step * then.damper * (then.approach + approach_now);
+    return 0.5 * step * then.unsprung * (then.approach + approach_now);
 }
 
 /// held: of the push, beside the spring's [N]; velocity: against what it touches [m/s]; stick: before the step, then after it [m].
@@ -30,9 +29,9 @@ double damping_loss(const Touch& then, double approach_now, double step) {
 Touch touch(const ContactNumerics& numerics, double stiffness, double depth, double held, const Vec3& normal,
             const Vec3& velocity, double dt, Vec3& stick) {
     const double approach = -dot(velocity, normal);
-    const NormalPush push = normal_push(stiffness, depth + held / stiffness, approach, numerics.damping, numerics.step);
+    const NormalPush push = normal_push(stiffness, depth, held, approach, numerics.damping, numerics.step);
     Touch result{
-        push.force * normal, push.force, push.damper, approach, 0.5 * stiffness * std::max(0.0, depth) * depth, 0};
+        push.force * normal, push.force, push.unsprung, approach, 0.5 * stiffness * std::max(0.0, depth) * depth, 0};
     if (numerics.friction > 0) {
         const FrictionState f = friction(stick, dt * velocity, normal, push.force, stiffness, numerics.friction);
         stick = f.stick;
@@ -88,10 +87,10 @@ public:
     void add_forces(double dt) {
         if (search_.update()) free_.assign(own_.size(), {});
         for_each_index(own_.size(), [&](std::size_t v) {
-            if (is_in_[v] && touches_[v].damper != 0) losses_[v] = damping_loss(touches_[v], approach(v), last_step_);
+            if (is_in_[v] && touches_[v].unsprung != 0) losses_[v] = damping_loss(touches_[v], approach(v), last_step_);
         });
         for (std::size_t v = 0; v < own_.size(); ++v)
-            if (is_in_[v] && touches_[v].damper != 0) damping_loss_ += losses_[v];
+            if (is_in_[v] && touches_[v].unsprung != 0) damping_loss_ += losses_[v];
         last_step_ = dt;
         for_each_index(own_.size(), [&](std::size_t v) {
             ContactHit hit;
@@ -150,7 +149,7 @@ public:
             for (const double w : hit.weights) state.add(w);
             const Touch& t = touches_[v];
             state.add(t.force);
-            for (const double x : {t.push, t.damper, t.approach, t.energy}) state.add(x);
+            for (const double x : {t.push, t.unsprung, t.approach, t.energy}) state.add(x);
         }
     }
     void restore(StateReader& state) {
@@ -163,7 +162,7 @@ public:
             is_in_[v] = hit.depth != 0;
             Touch& t = touches_[v];
             t.force = state.next_vector();
-            for (double* x : {&t.push, &t.damper, &t.approach, &t.energy}) *x = state.next();
+            for (double* x : {&t.push, &t.unsprung, &t.approach, &t.energy}) *x = state.next();
         }
     }
 
@@ -192,7 +191,7 @@ private:
     Touch touch_at(std::size_t v, double dt) {
         const ContactHit& hit = hits_[v];
         const double k = stiffness(v);
-        if (numerics_.holds) held_[v] = held_push(held_[v], k, hit.depth, dt, numerics_.step);
+        held_[v] = held_push(held_[v], numerics_.hold, k, hit.depth, dt, numerics_.step);
         return touch(numerics_, k, hit.depth, held_[v], hit.normal, velocity(v), dt, stick_[v]);
     }
 
@@ -274,9 +273,9 @@ void RigidContact::add_forces(double time, double dt) {
 
 RigidContact::Touch RigidContact::touch_at(std::size_t v, double time, double dt) {
     const Touch& then = touches_[v];
-    const double loss = then.damper == 0
+    const double loss = then.unsprung == 0
                             ? 0.0
-                            : 0.5 * last_step_ * then.damper *
+                            : 0.5 * last_step_ * then.unsprung *
                                   (then.approach + then.tool_speed - dot(surface_.velocity(v), then.normal));
     const RigidHit hit = hit_of_(v, surface_.position[v], time);
     if (!(hit.depth > 0)) {
@@ -289,7 +288,7 @@ RigidContact::Touch RigidContact::touch_at(std::size_t v, double time, double dt
     return {t.force,
             hit.normal,
             t.push,
-            t.damper,
+            t.unsprung,
             hit.depth,
             t.energy,
             t.approach,
@@ -322,7 +321,7 @@ std::vector<double> RigidContact::state() const {
     for (std::size_t v = 0; v < touches_.size(); ++v) {
         const Touch& t = touches_[v];
         state.add(stick_[v]), state.add(t.force), state.add(t.normal);
-        for (const double x : {t.push, t.damper, t.depth, t.energy, t.approach, t.tool_speed}) state.add(x);
+        for (const double x : {t.push, t.unsprung, t.depth, t.energy, t.approach, t.tool_speed}) state.add(x);
     }
     return state.take();
 }
@@ -333,7 +332,7 @@ void RigidContact::restore(std::span<const double> numbers) {
     for (std::size_t v = 0; v < touches_.size(); ++v) {
         Touch& t = touches_[v];
         stick_[v] = state.next_vector(), t.force = state.next_vector(), t.normal = state.next_vector();
-        for (double* x : {&t.push, &t.damper, &t.depth, &t.energy, &t.approach, &t.tool_speed}) *x = state.next();
+        for (double* x : {&t.push, &t.unsprung, &t.depth, &t.energy, &t.approach, &t.tool_speed}) *x = state.next();
     }
 }
 

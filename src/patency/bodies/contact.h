@@ -9,6 +9,7 @@
 #include <span>
 
 #include "patency/bodies/solid_surface.h"
+#include "patency/physics/solid/contact.h"
 
 namespace patency {
 
@@ -16,8 +17,7 @@ struct ContactNumerics {
     double friction = 0;   ///< Coulomb's coefficient
     double damping = 0;    ///< of the approach, over the critical                                     THEORY (21.9)
     double step = 0;       ///< the time step that the stiffness is set for [s]
-    bool holds =
-        false;   ///< between surfaces: what lasts hardly sinks in; for solids that come to rest  THEORY (21.11)
+    Hold hold{};   ///< of pushes between surfaces that last                                       THEORY (21.11)
 };
 
 /// What happened since the start, and the state now.
@@ -78,7 +78,7 @@ public:
 private:
     struct Touch {
         Vec3 force{}, normal{};                                 // [N], unit
-        double push = 0, damper = 0, depth = 0, energy = 0;     // N, N, m, J
+        double push = 0, unsprung = 0, depth = 0, energy = 0;   // N, N, m, J
         double approach = 0, tool_speed = 0;                    // before the step; along the normal [m/s]
         double friction_loss = 0, damping_loss = 0, work = 0;   // in the last step [J]
     };

@@ -145,7 +145,10 @@ private:
             if (config_.deployment.tethering > 0)
                 add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
             stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface,
-                                                      {.friction = config_.deployment.friction, .step = step}));
+                                                      {.friction = config_.deployment.friction,
+                                                       .damping = damping_when_driven,
+                                                       .step = step,
+                                                       .hold = hold_when_driven}));
         }
         if (phase == DeployPhase::enter && !balloon_)   // folded within the stent, which the wall closes on
             balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));

@@ -59,8 +59,10 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     add(DeployPhase::hold, holding * ramp);
     const double deflate_from = time;
     add(DeployPhase::deflate, deflating * ramp);
+    // Where the stent recoils the balloon hands the wall over to it: the first fifth of its way takes half of the time.
     program.balloon =
-        ramped_radius({program.open_from, program.open_to, deflate_from, time}, {folded, full, full, folded});
+        ramped_radius({program.open_from, program.open_to, deflate_from, 0.5 * (deflate_from + time), time},
+                      {folded, full, full, full - 0.2 * (full - folded), folded});
     add(DeployPhase::settle, settling * ramp);
     return program;
 }

@@ -198,8 +198,10 @@ std::size_t SolidScene::particle_count() const {
 
 static std::unique_ptr<Contact> make_contact(SolidScene& scene, const deck::ContactDeck& said, double step) {
     SolidSurface& surface = *scene.part(said.solid).surface;
-    const ContactNumerics numerics{
-        .friction = said.friction, .damping = said.damping, .step = step, .holds = scene.system.is_relaxed};
+    const ContactNumerics numerics{.friction = said.friction,
+                                   .damping = said.damping,
+                                   .step = step,
+                                   .hold = scene.system.is_relaxed ? hold_at_rest : Hold{}};
     if (said.plane) return make_plane_contact(surface, said.plane->point, normalized(said.plane->normal), numerics);
     if (said.tool) return make_tool_contact(surface, make_radial_tool(*said.tool), numerics);
     return make_surface_contact(surface, *scene.part(*said.with).surface, numerics);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a point that has gone into a surface feels: a push out of it in proportion to the depth, damped, and Coulomb's
-// friction with a stick that is a spring.                                                 THEORY (21.6) to (21.10)
+// friction with a stick that is a spring.                                                 THEORY (21.6) to (21.11), (21.15)
 #pragma once
 
 #include <algorithm>
@@ -17,26 +17,32 @@ inline constexpr double penalty_share = 0.1;
 inline double penalty_stiffness(double mass, double dt) { return penalty_share * mass / (dt * dt); }
 
 struct NormalPush {
-    double force = 0;    ///< >= 0 [N]
-    double damper = 0;   ///< the damper's part of it, which takes energy [N]
+    double force = 0;      ///< >= 0 [N]
+    double unsprung = 0;   ///< what of it is not the spring's, which stores nothing [N]
 };
 
-/// The spring of `stiffness` [N/m] and a damper of `ratio` of the critical damping, which never pull together; approach: how
-/// fast the depth [m] grows [m/s]; step [s]: that of the stiffness.                                        THEORY (21.9)
-inline NormalPush normal_push(double stiffness, double depth, double approach, double ratio, double step) {
-    const double spring = stiffness * depth, damper = 2 * ratio * stiffness * step / std::sqrt(penalty_share);
-    const double force = std::max(0.0, spring + damper * approach);
-    return {force, force - spring};
+/// The spring of `stiffness` [N/m], a `held` part [N] and a damper of `ratio` of the critical damping, which never pull together;
+/// approach: how fast the depth [m] grows [m/s]; step [s]: that of the stiffness.                THEORY (21.9), (21.11)
+inline NormalPush normal_push(double stiffness, double depth, double held, double approach, double ratio, double step) {
+    const double damper = 2 * ratio * stiffness * step / std::sqrt(penalty_share);
+    const double force = std::max(0.0, stiffness * depth + held + damper * approach);
+    return {force, force - stiffness * std::max(0.0, depth)};
 }
 
-/// A push that lasts is held by this times its spring's force, so that at rest it is as deep as with a spring so much stiffer and
-/// one more; it grows over so many of the steps that the stiffness is for, and what is quicker than that meets the spring alone.
-inline constexpr double held_ratio = 9, held_steps = 50;
+/// How a push that lasts is held: by up to `ratio` times its spring's force, so that at rest it is as deep as with a spring so
+/// much stiffer and one more; this grows over so many of the steps that the stiffness is for, and what is quicker meets the spring.
+struct Hold {
+    double ratio = 0, steps = 1;   // nothing is held
+};
+inline constexpr Hold hold_at_rest{9, 50};   ///< where solids come to rest, whose drag takes what such a push drives
+/// Where solids are driven nothing else takes that: more slowly, with a damper.                           THEORY (21.15)
+inline constexpr Hold hold_when_driven{90, 10000};
+inline constexpr double damping_when_driven = 0.1;
 
-/// The held part [N] after a step dt, from that before; none pulls.                                       THEORY (21.11)
-inline double held_push(double held, double stiffness, double depth, double dt, double step) {
-    const double share = std::min(1.0, dt / (held_steps * step));
-    return std::max(0.0, held + share * (held_ratio * stiffness * depth - held));
+/// The held part [N] after a step dt, from that before; step [s]: that of the stiffness. None pulls.      THEORY (21.11)
+inline double held_push(double held, const Hold& hold, double stiffness, double depth, double dt, double step) {
+    const double share = std::min(1.0, dt / (hold.steps * step));
+    return std::max(0.0, held + share * (hold.ratio * stiffness * depth - held));
 }
 
 struct FrictionState {
