@@ -94,12 +94,13 @@ TEST_P(Contacts, WhatLastsIsHeldButNeverPulls) {
         EXPECT_LT(norm(on_block + on_ball), 1e-13 * norm(on_ball) + 1e-18);
         return on_ball.y;
     };
-    const double first = push_at(-0.2e-3, 1), last = push_at(0, 1000);
+    const double first = push_at(-0.2e-3, 1), last = push_at(0, 4000);
     const auto plain = make_surface_contact(*block.surface, *ball.surface, {.friction = 0, .damping = 0, .step = step});
     block.move({}), ball.move({});
     plain->add_forces(0, step);
     const double spring = ball.load().y;
-    EXPECT_NEAR(first / spring, 1 + hold_at_rest.ratio / hold_at_rest.steps, 1e-9);
+    EXPECT_GT(first / spring, 1);
+    EXPECT_LT(first / spring, 1 + hold_at_rest.ratio / hold_at_rest.steps) << "more slowly on what is heavier";
     EXPECT_NEAR(last / spring, 1 + hold_at_rest.ratio, 1e-6);
     const auto before = contact->state();
     const double a_little_out = push_at(0.25e-3, 1);   // farther than it was in

@@ -183,15 +183,14 @@ private:
     }
     double approach(std::size_t v) const { return -dot(velocity(v), hits_[v].normal); }
 
-    /// With the other's lightest vertex: a mass that changed with the place on it would do work.
-    double stiffness(std::size_t v) const {
-        return penalty_stiffness(1 / (1 / own_.mass(v) + 1 / lightest_), numerics_.step);
-    }
+    /// With the other's lightest vertex: a mass that changed with the place on it would do work. [kg]
+    double joint_mass(std::size_t v) const { return 1 / (1 / own_.mass(v) + 1 / lightest_); }
+    double stiffness(std::size_t v) const { return penalty_stiffness(joint_mass(v), numerics_.step); }
 
     Touch touch_at(std::size_t v, double dt) {
         const ContactHit& hit = hits_[v];
-        const double k = stiffness(v);
-        held_[v] = held_push(held_[v], numerics_.hold, k, hit.depth, dt, numerics_.step);
+        const double k = stiffness(v), heavier = lightest_ / joint_mass(v);   // what is pushed moves so much slower
+        held_[v] = held_push(held_[v], numerics_.hold, k, hit.depth, dt, heavier * numerics_.step);
         return touch(numerics_, k, hit.depth, held_[v], hit.normal, velocity(v), dt, stick_[v]);
     }
 

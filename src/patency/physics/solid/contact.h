@@ -30,16 +30,18 @@ inline NormalPush normal_push(double stiffness, double depth, double held, doubl
 }
 
 /// How a push that lasts is held: by up to `ratio` times its spring's force, so that at rest it is as deep as with a spring so
-/// much stiffer and one more; this grows over so many of the steps that the stiffness is for, and what is quicker meets the spring.
+/// much stiffer and one more; this grows over so many of the steps that the stiffness is for, times how much lighter the joint mass
+/// is than that which is pushed, and what is quicker meets the spring.
 struct Hold {
     double ratio = 0, steps = 1;   // nothing is held
 };
 inline constexpr Hold hold_at_rest{9, 50};   ///< where solids come to rest, whose drag takes what such a push drives
 /// Where solids are driven nothing else takes that: more slowly, with a damper.                           THEORY (21.15)
-inline constexpr Hold hold_when_driven{90, 10000};
+inline constexpr Hold hold_when_driven{90, 8000};
 inline constexpr double damping_when_driven = 0.1;
 
-/// The held part [N] after a step dt, from that before; step [s]: that of the stiffness. None pulls.      THEORY (21.11)
+/// The held part [N] after a step dt, from that before; step [s]: that of the stiffness, times how much lighter the joint mass is.
+/// None pulls.                                                                                            THEORY (21.11)
 inline double held_push(double held, const Hold& hold, double stiffness, double depth, double dt, double step) {
     const double share = std::min(1.0, dt / (hold.steps * step));
     return std::max(0.0, held + share * (hold.ratio * stiffness * depth - held));
