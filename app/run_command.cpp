@@ -166,8 +166,8 @@ private:
             timing[std::string(stage)] = times;
         }
         if (summary.contains("before") && summary.contains("after"))   // an opened lesion is none any more
-            summary["after"]["at_lesions"] =
-                at_lesions_of(summary["before"], pullback_of("before"), summary["after"], pullback_of("after"));
+            add_at_lesions(summary["after"], at_lesions_of(summary["before"], pullback_of("before"), summary["after"],
+                                                           pullback_of("after")));
         write_summary(folder_.file("summary.json"), summary);
         write_summary(folder_.file("timing.json"), timing);
         say(fmt::format("the page: {}", write_report(folder_.root(), PATENCY_VERSION).string()));

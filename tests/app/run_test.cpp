@@ -84,6 +84,7 @@ TEST_F(Run, AStentOpensTheLesionAndStagesThatEndedAreKept) {
     const double before = summary["before"]["ffr"]["lesion"], after = summary["after"]["at_lesions"][0]["ffr"];
     EXPECT_LT(before, 1);
     EXPECT_GT(after, before + 0.5 * (1 - before));
+    EXPECT_EQ(summary["after"]["ffr"]["lesion"], after);
     EXPECT_GT(summary["after"]["openings"]["distal"]["flow_m3_per_s"].get<double>(),   // under the name that it had
               summary["before"]["openings"]["distal"]["flow_m3_per_s"].get<double>());
     EXPECT_EQ(summary["after"]["branches"][0]["name"], "tube");

@@ -83,5 +83,26 @@ TEST(SamePlaces, WithoutAColumnThereIsNoNumber) {
     EXPECT_FALSE(place["drop_pa"].is_null());
 }
 
+TEST(SamePlaces, AFlowWithoutALesionOfItsOwnHasItsFiguresThere) {
+    const Json places = {{{"gauge_pressure_ratio", 0.75}, {"ffr", 0.97}},
+                         {{"gauge_pressure_ratio", 0.9}, {"ffr", nullptr}},
+                         {{"gauge_pressure_ratio", 0.8}, {"ffr", 0.92}}};
+    Json open = {{"lesions", Json::array()},
+                 {"gauge_pressure_ratio", nullptr},
+                 {"ffr", {{"lesion", nullptr}, {"reason", "no lesion was found"}}}};
+    add_at_lesions(open, places);
+    EXPECT_EQ(open["gauge_pressure_ratio"], 0.75);
+    EXPECT_EQ(open["ffr"], (Json{{"lesion", 0.92}, {"read_at", "where the lesion was"}}));
+    EXPECT_EQ(open["at_lesions"], places);
+    Json narrow = {{"lesions", {{{"ffr", 0.8}}}}, {"gauge_pressure_ratio", 0.5}, {"ffr", {{"lesion", 0.8}}}};
+    add_at_lesions(narrow, places);
+    EXPECT_EQ(narrow["gauge_pressure_ratio"], 0.5) << "what is left is a lesion of its own";
+    EXPECT_EQ(narrow["ffr"]["lesion"], 0.8);
+    Json without_aorta = {{"lesions", Json::array()},
+                          {"ffr", {{"lesion", nullptr}, {"reason", "the deck gives no aortic pressure"}}}};
+    add_at_lesions(without_aorta, {{{"gauge_pressure_ratio", 0.75}, {"ffr", nullptr}}});
+    EXPECT_EQ(without_aorta["ffr"]["reason"], "the deck gives no aortic pressure");
+}
+
 }   // namespace
 }   // namespace patency

@@ -101,4 +101,15 @@ Json at_lesions_of(const Json& before, const CsvTable& pullback_before, const Js
     return places;
 }
 
+void add_at_lesions(Json& after, const Json& places) {
+    after["at_lesions"] = places;
+    const auto lacks = [&](const char* key) { return !after.contains(key) || after[key].empty(); };
+    if (places.empty() || !lacks("lesions")) return;
+    after["gauge_pressure_ratio"] = places[0]["gauge_pressure_ratio"];
+    Json worst;
+    for (const Json& place : places)
+        if (place["ffr"].is_number() && (worst.is_null() || place["ffr"] < worst)) worst = place["ffr"];
+    if (worst.is_number()) after["ffr"] = {{"lesion", worst}, {"read_at", "where the lesion was"}};
+}
+
 }   // namespace patency

@@ -24,4 +24,8 @@ double outlet_of_other(const nlohmann::ordered_json& flow, const nlohmann::order
 nlohmann::ordered_json at_lesions_of(const nlohmann::ordered_json& before, const CsvTable& pullback_before,
                                      const nlohmann::ordered_json& after, const CsvTable& pullback_after);
 
+/// Puts these places into `after` (after.at_lesions). If it has no lesion of its own any more, its ratio of gauge pressures and the
+/// worst FFR are those there, and ffr.read_at says so.
+void add_at_lesions(nlohmann::ordered_json& after, const nlohmann::ordered_json& places);
+
 }   // namespace patency
