@@ -90,6 +90,13 @@ TEST(HeldPush, LeavesLittleOfTheDepthAndComesToRest) {
     }
 }
 
+TEST(HeldPush, GrowsByItsRatioOverItsSteps) {
+    const Hold hold{9, 50};
+    EXPECT_NEAR(held_push(0, hold, stiffness, 1e-6, 1e-7, 1e-7), 9 * stiffness * 1e-6 / 50, 1e-15);
+    EXPECT_NEAR(held_push(0, hold, stiffness, 1e-6, 1e-7, 3e-7), 9 * stiffness * 1e-6 / 150, 1e-15);
+    EXPECT_EQ(held_push(0, hold, stiffness, -1e-6, 1e-7, 1e-7), 0);
+}
+
 TEST(HeldPush, WithoutADamperDrivesWhatItHolds) {   // the criterion of Routh and Hurwitz, THEORY (21.15)
     EXPECT_GT(press(1, hold_at_rest, 0, 200000).motion, 1);
     EXPECT_GT(press(1, hold_at_rest, damping_when_driven, 200000).motion, 1) << "too quick for its damper";
