@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/schemes/selective_mass.h"
 
-#include <cmath>
 #include <limits>
 #include <queue>
 #include <unordered_map>
@@ -79,8 +78,9 @@ private:
 
 }   // namespace
 
-SelectiveMass::SelectiveMass(const SolidParticles& particles, double spacing, double scaling) : scaling_(scaling) {
+SelectiveMass::SelectiveMass(const SolidParticles& particles, double spacing, const std::vector<double>& scaling) {
     const std::size_t n = particles.size();
+    for (const double s : scaling) alone_.push_back(1 / s);
     const Graph graph = neighbours_of(particles, neighbours_within * spacing);
     WaysFrom ways(particles, graph);
     const double reach = patch_reach * spacing, apart = patches_apart * spacing;
@@ -101,7 +101,7 @@ SelectiveMass::SelectiveMass(const SolidParticles& particles, double spacing, do
     mass_.assign(patch_count, 0);
     for (std::uint32_t i = 0; i < n; ++i) {
         for (Share& s : of_particle[i]) {
-            s.weight /= sum[i];
+            s.weight *= (1 - alone_[i]) / sum[i];
             of_patch[s.index].push_back({i, s.weight});
             mass_[s.index] += s.weight * particles.mass[i];
         }
@@ -116,19 +116,16 @@ SelectiveMass::SelectiveMass(const SolidParticles& particles, double spacing, do
     together_.resize(patch_count);
 }
 
-double SelectiveMass::step_gain() const { return std::sqrt(scaling_); }
-
 void SelectiveMass::compute_velocity(const std::vector<Vec3>& momentum, SolidParticles& particles) const {
-    const double alone = 1 / scaling_;
     for_each_index(mass_.size(), [&](std::size_t k) {
         WeightedSum sum;
         for (const Share* s = members_.begin(k); s < members_.end(k); ++s) sum.add(s->weight, momentum[s->index]);
-        together_[k] = ((1 - alone) / mass_[k]) * sum.value();
+        together_[k] = (1 / mass_[k]) * sum.value();
     });
     for_each_index(particles.size(), [&](std::size_t i) {
         WeightedSum sum;
         for (const Share* s = patches_.begin(i); s < patches_.end(i); ++s) sum.add(s->weight, together_[s->index]);
-        particles.velocity[i] = (alone / particles.mass[i]) * momentum[i] + sum.value();
+        particles.velocity[i] = (alone_[i] / particles.mass[i]) * momentum[i] + sum.value();
     });
 }
 

@@ -12,23 +12,21 @@ namespace patency {
 
 class SelectiveMass {
 public:
-    /// Finds patches of particles that are connected, about five spacings wide. scaling >= 1: how many times heavier a particle
-    /// is against its neighbours. spacing [m]. Particles must be in their final order.
-    SelectiveMass(const SolidParticles& particles, double spacing, double scaling);
+    /// Finds patches of particles that are connected, about five spacings wide. scaling >= 1, one for each particle: how many times heavier
+    /// it is against its neighbours. spacing [m]. Particles must be in their final order.
+    SelectiveMass(const SolidParticles& particles, double spacing, const std::vector<double>& scaling);
 
-    /// The longest stable step over that of the body with its own mass.
-    double step_gain() const;
     /// Overwrites the particles' velocities: v = S p / m, of the momenta p [kg m/s]. Their sum p is that of m v.
     void compute_velocity(const std::vector<Vec3>& momentum, SolidParticles& particles) const;
 
 private:
     struct Share {
         std::uint32_t index;
-        double weight;   // all of a particle's are 1 together
+        double weight;   // all of a particle's are together what it is not alone: 1 - 1 / scaling
     };
-    double scaling_;
-    Ragged<Share> patches_;   // of a particle
-    Ragged<Share> members_;   // of a patch
+    std::vector<double> alone_;   // 1 / scaling
+    Ragged<Share> patches_;       // of a particle
+    Ragged<Share> members_;       // of a patch
     std::vector<double> mass_;
     mutable std::vector<Vec3> together_;   // velocities of the patches
 };

@@ -19,6 +19,10 @@ Vec3 displacement_of(const Constraint& c, const Vec3& reference, double time) {
     return c.displacement ? c.displacement(reference, time) : Vec3{};
 }
 
+/// By how much (20.20) a particle may turn in a step: 2.12 at the most in struts whose particles lie in layers. Their fastest vibration turns
+/// by 1.3 of the 2 at which it would grow.
+constexpr double borne_angle = 2.2;
+
 Fibres<double> fibres_of(const SolidParticles& p, std::size_t i) { return {p.first_fibre[i], p.second_fibre[i]}; }
 
 }   // namespace
@@ -40,7 +44,7 @@ double SolidBody::stable_step() const {
     });
     const double h = numerics_.smoothing_ratio * numerics_.spacing;
     const double gain =
-        (selective_ ? selective_->step_gain() : 1.0) * (numerics_.second_order ? second_order_share : 1.0);
+        (selective_ ? std::sqrt(numerics_.mass_scaling) : 1.0) * (numerics_.second_order ? second_order_share : 1.0);
     return gain * numerics_.cfl * h / (std::sqrt(fastest) * (1 + numerics_.viscosity));
 }
 
@@ -265,11 +269,14 @@ void SolidBody::restore(std::span<const double> state) {
     }
 }
 
-void SolidBody::find_selective_mass() {
-    if (numerics_.mass_scaling == 1) return;
+void SolidBody::find_selective_mass(const std::vector<double>& vibration) {
     if (!solid_.constraints.empty())
         throw DeckError("a solid whose particles are heavier against their neighbours cannot be held");
-    selective_.emplace(particles(), numerics_.spacing, numerics_.mass_scaling);
+    const double step = stable_step();   // of its own mass
+    std::vector<double> scaling;
+    for (const double square : vibration)
+        scaling.push_back(numerics_.mass_scaling * std::max(1.0, square * step * step / (borne_angle * borne_angle)));
+    selective_.emplace(particles(), numerics_.spacing, scaling);
 }
 
 void SolidBody::find_constrained() {

@@ -100,7 +100,9 @@ protected:
     SolidBody(Solid& solid, const SolidNumerics& numerics) : solid_(solid), numerics_(numerics) {}
     /// To be called when the particles have their final order.
     void find_constrained();
-    void find_selective_mass();
+    /// Of a body whose mass_scaling is not 1. vibration: what the squares of its particles' circular frequencies against their neighbours
+    /// are at the most [1/s^2]. Throws DeckError for one that is held.                               THEORY (20.17), (20.20)
+    void find_selective_mass(const std::vector<double>& vibration);
     /// Whatever the loops need of positions and velocities; before they run.
     virtual void write_records() = 0;
     virtual double hourglass_energy() const = 0;   ///< [J]

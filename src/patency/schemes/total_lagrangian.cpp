@@ -8,6 +8,7 @@
 
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
+#include "patency/base/symmetric_eigen.h"
 #include "patency/schemes/solid_stress.h"
 #include "patency/schemes/solid_terms.h"
 
@@ -47,7 +48,7 @@ public:
         sort_members();
         find_damping();
         find_constrained();
-        find_selective_mass();
+        if (numerics_.mass_scaling != 1) find_selective_mass(vibrations());
     }
 
     void compute_deformation() override {
@@ -217,6 +218,22 @@ private:
     double mean_correction(std::size_t i) const {
         const auto& b = input_.correction;
         return (double(b[0][i]) + double(b[1][i]) + (numerics_.planar ? 0.0 : double(b[2][i]))) / dimensions();
+    }
+
+    /// What the square of a particle's circular frequency against its neighbours is at the most [1/s^2].        THEORY (20.20)
+    std::vector<double> vibrations() const {
+        const SolidParticles& p = particles();
+        std::vector<double> stiffness(p.size()), vibration(p.size(), 0);
+        for_each_index(p.size(), [&](std::size_t i) {
+            const Vec3 b = symmetric_eigen(correction_at(input_, i)).values;
+            stiffness[i] =
+                p.volume[i] * (material(i).moduli().p_wave() * std::max({b.x, b.y, b.z}) + elastic_hourglass_[i]);
+        });
+        pairs_.for_each_pair([&](std::uint32_t i, std::uint32_t j, const FixedPair<T>& pair) {
+            vibration[i] += double(pair.w) * (stiffness[i] + stiffness[j]);
+        });
+        for (std::size_t i = 0; i < p.size(); ++i) vibration[i] *= 2 / (p.mass[i] * distance_unit_ * distance_unit_);
+        return vibration;
     }
 
     void sort_members() {

@@ -127,9 +127,7 @@ double stent_mass_scaling(const deck::Case& config, const StentPlace& place, dou
     const SolidMaterial metal = stent_material(*config.stent, place.pattern);
     const SolidNumerics n = stent_numerics(config, spacing);
     const double wave = n.cfl * n.kernel().h / ((1 + n.viscosity) * metal.moduli().p_wave_speed(metal.density));
-    const double step =
-                     stent_step_share(place.form) * second_order_share * std::sqrt(stent_particle_mass_scaling) * wave,
-                 wanted = d.ramp / d.steps;
+    const double step = second_order_share * std::sqrt(stent_particle_mass_scaling) * wave, wanted = d.ramp / d.steps;
     return std::max(1.0, (wanted / step) * (wanted / step));
 }
 

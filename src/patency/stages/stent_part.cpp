@@ -20,8 +20,6 @@ constexpr double stent_hourglass = 0.3;
 
 }   // namespace
 
-double stent_step_share(const StentForm& form) { return std::holds_alternative<ImportedStent>(form) ? 0.4 : 1; }
-
 std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentForm& form, const StentAxis& axis,
                                            const SolidMaterial& material, const SolidNumerics& numerics,
                                            double mass_scaling) {
@@ -30,7 +28,6 @@ std::unique_ptr<SolidPart> make_stent_part(const std::string& name, const StentF
     driven.hourglass = stent_hourglass;
     driven.across_gaps = false;   // struts pass each other closely, and meet connectors at sharp angles
     driven.mass_scaling = stent_particle_mass_scaling;
-    driven.cfl *= stent_step_share(form);
     StentParticles metal;
     std::visit([&](const auto& f) { make_stent_particles(f, axis, numerics.spacing, metal); }, form);
     auto part = std::make_unique<SolidPart>();

@@ -16,10 +16,6 @@ namespace patency {
 inline constexpr double stent_particle_mass_scaling = 16;
 /// Smoothing length over spacing that resolves bending best with four particles across, in layers as the struts of a pattern hold them.
 inline constexpr double stent_smoothing_ratio = 1.0;
-/// Of the step that particles in layers bear, what these do. Those of a surface are relaxed in space: at edges some have few neighbours, a large
-/// B and so stiff hourglass modes, which the P-wave's step does not see. A ring turned inside out at 0.67 and not at 0.58; a third less is for
-/// edges that are worse.
-double stent_step_share(const StentForm& form);
 
 /// The stent as it was made, along the axis, free of stress and at rest. numerics.spacing [m] must put four particles across
 /// every strut (largest_stent_spacing); mass_scaling multiplies the material's density. Its surface has the faces outer,
