@@ -9,6 +9,7 @@
 #include "patency/base/errors.h"
 #include "patency/base/parallel.h"
 #include "patency/base/symmetric_eigen.h"
+#include "patency/schemes/solid_pairs.h"
 #include "patency/schemes/solid_stress.h"
 #include "patency/schemes/solid_terms.h"
 
@@ -20,8 +21,6 @@ namespace {
 // room for as a body moves.
 constexpr double displacement_quanta_per_spacing = 4194304;
 constexpr double largest_fixed = 2.0e9;
-
-constexpr double nearest_neighbours = 1.6;   // spacings: along axes and diagonals of a lattice
 
 constexpr double flattest = 1e-3;   // det of the moment over its mean cubed; 1 in the middle, 0.3 in a corner
 
@@ -41,8 +40,7 @@ public:
         if constexpr (sizeof(T) == 4) displacement_unit_ = numerics.spacing / displacement_quanta_per_spacing;
         is_metal_ = std::any_of(solid.materials.begin(), solid.materials.end(),
                                 [](const SolidMaterial& m) { return std::holds_alternative<J2Plastic>(m.law); });
-        snap_reference();
-        find_pairs();
+        pairs_ = pair_up<T>(solid.particles, numerics);
         make_records();
         correct_gradients();
         sort_members();
@@ -104,70 +102,9 @@ public:
     }
 
 private:
-    Frame make_frame() const {
-        const SolidParticles& p = solid_.particles;
-        if (p.size() == 0) throw GeometryError("a solid has no particles: its spacing is too large");
-        Vec3 low = p.reference[0], high = low;
-        for (const Vec3& x : p.reference) {
-            low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
-            high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
-        }
-        const double support = numerics_.kernel().support();
-        const Vec3 margin = support * Vec3{1, 1, 1};
-        return Frame(low - margin, high + margin, support);
-    }
-
-    /// The spacing over a power of two, so that a lattice stays one, of which 16 bits hold the longest distance of a pair [m].
-    double reference_quantum() const {
-        return numerics_.spacing /
-               std::exp2(std::floor(std::log2(PairUnits::most * numerics_.spacing / numerics_.kernel().support())));
-    }
-
-    /// Pairs are kept in whole quanta (PairUnits). With places that are whole numbers of them too, what is linear stays so to the last bit; nothing
-    /// moves by more than 1e-4 spacings, the body as it is now with its reference. In both precisions, so that their places are the same.
-    void snap_reference() {
-        SolidParticles& p = particles();
-        const double q = reference_quantum();
-        for_each_index(p.size(), [&](std::size_t i) {
-            const Vec3 x = p.reference[i],
-                       snapped{q * std::round(x.x / q), q * std::round(x.y / q), q * std::round(x.z / q)};
-            p.reference[i] = snapped, p.position[i] += snapped - x;
-        });
-    }
-
-    /// Neighbours, and the order of the particles in which they are packed.
-    void find_pairs() {
-        SolidParticles& p = particles();
-        const Frame frame = make_frame();
-        const double support = numerics_.kernel().support();
-        Cells cells;
-        Neighbours found;
-        p.take(cells.find_order(frame, numerics_.spacing, {p.reference.data(), p.size()}));
-        cells.index(frame, numerics_.spacing, {p.reference.data(), p.size()});
-        found.find_own(frame, cells, support, native_lanes<T>);
-        FixedRows rows = rows_by_particle(found, p.size());
-        if (!numerics_.across_gaps) rows = joined(rows, p.reference, nearest_neighbours * numerics_.spacing);
-        const std::vector<std::uint32_t> order = find_order(rows, [&](std::uint32_t i) { return p.material[i]; });
-        p.take(order);
-        // The same for both of a pair, also as they are kept: their forces are opposite to the last bit.
-        mean_volume_ = sum_of(p.size(), [&](std::size_t i) { return p.volume[i]; }) / double(p.size());
-        const auto find = [&](std::uint32_t i, std::uint32_t j) {
-            const Vec3 d = p.reference[i] - p.reference[j];
-            const double v = std::sqrt(p.volume[i] * p.volume[j]) / numerics_.cell(),
-                         t = std::max(0.0, 1 - norm(d) / support);
-            return FoundPair{(1 / distance_unit_) * d, v * t * t * t};
-        };
-        const FixedRows packed = reordered(rows, order);
-        const double largest = largest_of(p.size(), [&](std::size_t i) {
-            double w = 0;
-            for (const std::uint32_t j : packed[i]) w = std::max(w, find(std::uint32_t(i), j).w);
-            return w;
-        });
-        pairs_.make(packed, {reference_quantum() / distance_unit_, largest}, find);
-    }
-
     void make_records() {
         const std::size_t n = particles().size(), padded = pairs_.padded_size();
+        mean_volume_ = sum_of(n, [&](std::size_t i) { return particles().volume[i]; }) / double(n);
         displacement_.reset(padded, zero_record<T>());
         for (auto& row : stress_.rows) row.reset(padded, zero_record<T>());
         for (auto& column : input_.sums) column.reset(padded, T(0));
