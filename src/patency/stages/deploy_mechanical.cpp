@@ -208,7 +208,7 @@ private:
             if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY &&
                 profile_.mean_diameter >= scene_->place.diameter)
                 stop_load();
-            if (is_stopped || watch_.wall() - last_checkpoint_ > stage_.wall_between_checkpoints) write_checkpoint();
+            if (is_stopped || is_checkpoint_due()) write_checkpoint();
             if (is_stopped) {
                 say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", time()));
                 return false;
@@ -229,7 +229,13 @@ private:
         for (const double* x : known_numbers()) known.push_back(*x);
         writer.write("known", known);
         writer.finish();
-        last_checkpoint_ = watch_.wall();
+        last_checkpoint_wall_ = watch_.wall(), last_checkpoint_ = time();
+    }
+    /// Where the deck's interval is over; and now and then all the same, for it may be meant for a flow's seconds.
+    bool is_checkpoint_due() const {
+        const auto& interval = config_.output.checkpoint_interval;
+        return watch_.wall() - last_checkpoint_wall_ > stage_.wall_between_checkpoints ||
+               (interval && time() - last_checkpoint_ >= *interval);
     }
     void read_checkpoint() {
         const CheckpointReader reader(checkpoint_);
@@ -240,11 +246,12 @@ private:
         read_solids(reader, system(), "solids");
         scene_->solids.time = reader.read<double>("time");
         scene_->solids.dt = reader.read<double>("dt");
-        scene_->solids.steps = reader.read<std::int64_t>("steps");
+        scene_->solids.steps = steps_before_ = reader.read<std::int64_t>("steps");
         const auto known = reader.read<std::vector<double>>("known");
         const auto to = known_numbers();
         for (std::size_t k = 0; k < to.size(); ++k) *to[k] = known.at(k);
         measure();
+        last_checkpoint_ = time(), is_resumed_ = true;
         say(fmt::format("goes on at {:.6g} s", time()));
     }
     /// What is known of the past.
@@ -389,19 +396,22 @@ private:
         deploy["mass_scaling"] = scene_->mass_scaling;
         deploy["steps"] = scene_->solids.steps;
         write_summary(stage_.folder.file("summary.json"), {{"deploy", deploy}});
-        const double particle_steps = double(scene_->solids.steps) * double(stent_->body->particles().size());
+        const std::int64_t steps = scene_->solids.steps - steps_before_;
+        const double particle_steps = double(steps) * double(stent_->body->particles().size());
         write_timing(stage_.folder, {{"deploy",
                                       {{"cpu_s", watch_.cpu()},
                                        {"wall_s", watch_.wall()},
-                                       {"stent_particle_steps_per_s", particle_steps / watch_.wall()}}}});
+                                       {"steps", steps},
+                                       {"stent_particle_steps_per_s", particle_steps / watch_.wall()},
+                                       {"resumed", is_resumed_}}}});
         if (stage_.progress)
             stage_.progress->finish({.stage = "deploy", .fraction = 1, .time = time(), .step = scene_->solids.steps});
         say(
             fmt::format("done: stent {:.4g} mm, recoil {:.2f} %, lumen {:.3g} mm at its narrowest (before {:.3g}), "
-                        "residual stenosis {:.1f} %; {} steps in {:.0f} s",
+                        "residual stenosis {:.1f} %; {} steps, {} of them now in {:.0f} s",
                         1e3 * profile_.mean_diameter, 100 * recoil(marks_.opened_diameter, profile_.mean_diameter),
                         1e3 * gain.narrowest_after, 1e3 * gain.narrowest_before, 100 * gain.residual_stenosis(),
-                        scene_->solids.steps, watch_.wall()));
+                        scene_->solids.steps, steps, watch_.wall()));
     }
 
     const deck::Case& config_;
@@ -420,7 +430,9 @@ private:
     std::vector<double> contact_steps_;   // of the phases that have begun: what their contacts are as stiff for [s]
     CheckpointOrigin origin_;
     std::filesystem::path checkpoint_;
-    double last_checkpoint_ = 0;   // s of wall time
+    double last_checkpoint_wall_ = 0, last_checkpoint_ = 0;   // s
+    std::int64_t steps_before_ = 0;                           // that an interrupted run did
+    bool is_resumed_ = false;
 };
 
 }   // namespace
