@@ -42,6 +42,14 @@ std::vector<Vec3> momenta(const SolidParticles& p, double k) {
     return momentum;
 }
 
+/// Position Verlet from time, which goes on by dt.                                                    THEORY (20.11)
+void step(SolidBody& body, double& time, double dt) {
+    body.drift(0.5 * dt, time + 0.5 * dt);
+    body.compute_force(time + 0.5 * dt);
+    body.kick(dt, time);
+    body.drift(0.5 * dt, time += dt);
+}
+
 }   // namespace
 
 TEST(SelectiveMass, KeepsMomentumAndMovesAsOneWhatMovesAsOne) {
@@ -70,8 +78,9 @@ TEST(SelectiveMass, IsAMass) {   // symmetric, and no motion is without energy
     mass.compute_velocity(one, p);
     const double forth = power(other, p.velocity);
     double alone = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) alone += dot(one[i], one[i]) / p.mass[i];
-    EXPECT_GT(power(one, p.velocity), alone / (2.5 * scaling));
+    const std::vector<double> heavier = scalings(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) alone += dot(one[i], one[i]) / (heavier[i] * p.mass[i]);
+    EXPECT_GT(power(one, p.velocity), alone);
     mass.compute_velocity(other, p);
     EXPECT_NEAR(power(one, p.velocity), forth, 1e-12 * std::abs(forth));
 }
@@ -111,10 +120,7 @@ TEST(SelectiveMass, ItsLongStepKeepsTheEnergy) {
     const auto largest_energy_of = [&](int steps) {   // it swings about a constant
         double most = 0;
         for (int k = 0; k < steps; ++k) {
-            body->drift(0.5 * dt, time + 0.5 * dt);
-            body->compute_force(time + 0.5 * dt);
-            body->kick(dt, time);
-            body->drift(0.5 * dt, time += dt);
+            step(*body, time, dt);
             const SolidEnergy e = body->energy();
             most = std::max(most, e.kinetic + e.elastic + e.hourglass);
         }
@@ -141,10 +147,7 @@ TEST(SelectiveMass, ParticlesInDisorderBearTheStepOfLayers) {
         const SolidEnergy first = body->energy();
         double most = 0, time = 0;
         for (int k = 0; k < 600; ++k) {
-            body->drift(0.5 * dt, time + 0.5 * dt);
-            body->compute_force(time + 0.5 * dt);
-            body->kick(dt, time);
-            body->drift(0.5 * dt, time += dt);
+            step(*body, time, dt);
             const SolidEnergy e = body->energy();
             most = std::max(most, e.kinetic + e.elastic + e.hourglass);
         }
