@@ -95,6 +95,9 @@ void print_deploy_plan(const deck::Case& config, const DeployPlan& plan, int thr
         "{:.3g}; about {} on {}\n",
         plan.stent_particles, plan.wall_particles, plan.steps, plan.mass_scaling, readable_time(plan.seconds),
         thread_text(threads));
+    if (const double slowing = config.deployment.slowing; slowing > 1)
+        fmt::print("  pace                 up to {:.3g} times more slowly where stent or wall would move too fast\n",
+                   slowing);
 }
 
 void check(const DeckOptions& options) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "patency/analysis/stent_metrics.h"
 #include "patency/io/flow_table.h"
 #include "patency/io/hash.h"
 #include "patency/io/log_file.h"
@@ -112,8 +113,8 @@ ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, co
 }
 
 bool is_quasi_static(const nlohmann::ordered_json& deploy) {
-    constexpr double most = 0.05;
-    return !deploy["kinetic_to_internal"].is_number() || deploy["kinetic_to_internal"].get<double>() < most;
+    return !deploy["kinetic_to_internal"].is_number() ||
+           deploy["kinetic_to_internal"].get<double>() < most_kinetic_to_internal;
 }
 
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
@@ -130,7 +131,7 @@ ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, 
     log(LogLevel::warning,
         "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so that "
         "recoil, strains and "
-        "pressures are provisional; give deployment.steps more");
+        "pressures are provisional; give deployment.steps more, or deployment.slowing");
     return ExitCode::bar_missed;
 }
 

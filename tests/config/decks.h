@@ -78,7 +78,7 @@ wall:
   plaque: fills
   spacing: "0.15 mm"
   layers: {adventitia_share: 0.4, plaque: {name: coronary_wall, young: 2 MPa, poisson: 0.45}, adventitia: {name: coronary_wall}}
-deployment: {diameter: 3.3 mm, crimped_diameter: 1.1 mm, predilation: 2 mm, ramp: 3 ms, steps: 30000, tethering: 5 kPa/mm, region: 0.7}
+deployment: {diameter: 3.3 mm, crimped_diameter: 1.1 mm, predilation: 2 mm, ramp: 3 ms, steps: 30000, slowing: 3, tethering: 5 kPa/mm, region: 0.7}
 openings:
   inlet:
     type: flow

@@ -11,6 +11,9 @@
 
 namespace patency {
 
+/// The largest kinetic over internal energy of what is driven slowly enough to be taken for at rest.
+inline constexpr double most_kinetic_to_internal = 0.05;
+
 /// A piece of a stent's length.
 struct StentSlice {
     double along;                           ///< its middle, from the stent's middle [m]

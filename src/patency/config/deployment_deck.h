@@ -56,7 +56,8 @@ struct Deployment {
     double balloon_friction = 0.2;            ///< between tools and stent
     double load = 2e6;                        ///< radial_load: Pa on the struts in the end
     double ramp = 3e-3;                       ///< s in which the balloon opens
-    int steps = 45000;                        ///< of the stent, in the ramp
+    int steps = 15000;                        ///< of the stent, in the ramp
+    double slowing = 4;                       ///< where it moves too fast the ramp takes longer, at most so many times
     std::optional<double> mass_scaling;       ///< of the stent's density, instead of steps
     double region = 0.5;                      ///< in lengths of the stent: the wall beyond each of its ends
     double tethering = 0;                     ///< Pa/m of springs on the outside of the wall

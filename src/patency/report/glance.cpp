@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "patency/analysis/stent_metrics.h"
 #include "patency/report/figures.h"
 #include "patency/report/sections.h"
 
@@ -147,7 +148,7 @@ constexpr StentFact stent_facts[] = {
     {"/dogboning_percent", "Dogboning"},
     {"/penetration_over_spacing", "Overlap over spacing", [](double v) { return v < 0.1; }, "metal and wall keep apart",
      "metal sinks into the wall"},
-    {"/kinetic_to_internal", "Kinetic over internal energy", [](double v) { return v < 0.05; },
+    {"/kinetic_to_internal", "Kinetic over internal energy", [](double v) { return v < most_kinetic_to_internal; },
      "deployed slowly enough", "deployed too fast to be trusted"},
 };
 

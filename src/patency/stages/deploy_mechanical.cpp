@@ -14,6 +14,8 @@
 #include "patency/config/deck.h"
 #include "patency/io/summary.h"
 #include "patency/shape/exact_distance.h"
+#include "patency/stages/deploy_account.h"
+#include "patency/stages/deploy_pace.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_record.h"
 #include "patency/stages/deploy_results.h"
@@ -31,36 +33,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int looks = 400;   // rows of deployment.csv
 
-/// The struts' own pressure: rises until the stent is as wide as wanted, then falls to nothing.
-struct RadialLoad {
-    double from, ramp, most;
-    double stopped = INFINITY, reached = 0;   // when, and at what pressure
-
-    double pressure(double time) const {
-        if (time <= from) return 0;
-        if (time < stopped) return most * std::min(1.0, (time - from) / ramp);
-        return reached * std::max(0.0, 1 - (time - stopped) / (0.2 * ramp));
-    }
-};
-
-/// What is known after the phase in which it is measured.
-struct Marks {
-    double crimped_length = 0, crimped_diameter = 0;   // before it opens [m]
-    double opened_diameter = 0, opened_length = 0;     // before it is let go [m]
-    double touched = 0;                                // when stent and wall first met while it opens [s]
-    double stent_ratio = 0, wall_ratio = 0;   // the largest kinetic over internal while it opens, after the first tenth
-    double balloon_pressure = 0;              // the largest [Pa]
-    double deepest = 0;                       // of stent in wall [m]
-};
-
-/// What tools gave and contacts took.
-struct ContactAccount {
-    double work = 0, stored = 0, friction = 0, damping = 0;   // [J]
-    void add(const ContactReport& r) {
-        work += r.work, stored += r.energy, friction += r.friction_loss, damping += r.damping_loss;
-    }
-};
-
 class Deployment {
 public:
     Deployment(const deck::Case& config, const DeployStage& stage)
@@ -71,6 +43,7 @@ public:
         const bool goes_on = stage.folder.has_checkpoint("deploy");
         scene_ = build_deployment(config);
         program_ = make_deploy_program(scene_->place, config.deployment);
+        pace_ = DeployPace(row(), config.deployment.slowing);
         stent_ = scene_->stent.get(), wall_ = scene_->wall.get();
         if (goes_on)
             read_checkpoint();
@@ -96,6 +69,7 @@ private:
     void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
     SolidSystem& system() { return scene_->solids.system; }
     double time() const { return scene_->solids.time; }
+    double row() const { return program_.end() / looks; }   // of the program [s]
 
     void tell_plan() {
         const StentPlace& place = scene_->place;
@@ -128,10 +102,12 @@ private:
         solids.is_relaxed = phase == DeployPhase::release || phase == DeployPhase::hold || phase == DeployPhase::settle;
         const double step = known_step ? *known_step : stable_step(solids);
         const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
-            return make_tool_contact(
-                surface,
-                {.kind = kind, .axis = scene_->place.axis, .length = scene_->place.pattern.length, .radius = radius},
-                {.friction = config_.deployment.balloon_friction, .step = step});
+            return make_tool_contact(surface,
+                                     {.kind = kind,
+                                      .axis = scene_->place.axis,
+                                      .length = scene_->place.pattern.length,
+                                      .radius = [this, radius](double t) { return radius(pace_.program(t)); }},
+                                     {.friction = config_.deployment.balloon_friction, .step = step});
         };
         phase_ = phase;
         if (phase == DeployPhase::crimp) {
@@ -170,7 +146,8 @@ private:
         }
         load_ = std::make_shared<RadialLoad>(
             RadialLoad{.from = program_.open_from, .ramp = config_.deployment.ramp, .most = config_.deployment.load});
-        stent_->pressures.push_back({stent_inner, [load = load_](double t) { return load->pressure(t); }});
+        stent_->pressures.push_back(
+            {stent_inner, [this, load = load_](double t) { return load->pressure(pace_.program(t)); }});
     }
 
     /// A tool that is done, if it is there: the last contact.
@@ -187,25 +164,28 @@ private:
     }
 
     bool advance(const DeployProgram::Entry& entry) {
-        const double row = program_.end() / looks;
         if (time() == 0) {
-            look(row);
+            look();
             marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;   // as it came
         }
-        while (time() < entry.end) {
-            const double next = std::min(entry.end, row * (std::floor(time() / row * (1 + 1e-9)) + 1));
+        while (done_ < entry.end) {
+            const double next = std::min(entry.end, row() * (std::floor(done_ / row() * (1 + 1e-9)) + 1)),
+                         next_time = pace_.time_of(next);
             bool is_stopped = false;
-            while (time() < next && !is_stopped) {
-                step_solids(scene_->solids, next);
+            while (time() < next_time && !is_stopped) {
+                step_solids(scene_->solids, next_time);
                 is_stopped = stage_.interrupted && stage_.interrupted();
             }
-            if (time() == next) look(row);
+            if (time() >= next_time) {
+                done_ = next;
+                look();
+            }
             if (stage_.progress)
                 stage_.progress->update({.stage = std::string(name_of(entry.phase)),
-                                         .fraction = time() / program_.end(),
+                                         .fraction = pace_.program(time()) / program_.end(),
                                          .time = time(),
                                          .step = scene_->solids.steps});
-            if (load_ && entry.phase == DeployPhase::open && load_->stopped == INFINITY &&
+            if (load_ && entry.phase == DeployPhase::open && !load_->is_stopped() &&
                 profile_.mean_diameter >= scene_->place.diameter)
                 stop_load();
             if (is_stopped || is_checkpoint_due()) write_checkpoint();
@@ -256,20 +236,16 @@ private:
     }
     /// What is known of the past.
     std::vector<double*> known_numbers() {
-        std::vector<double*> numbers = {&marks_.crimped_length,  &marks_.crimped_diameter,
-                                        &marks_.opened_diameter, &marks_.opened_length,
-                                        &marks_.touched,         &marks_.stent_ratio,
-                                        &marks_.wall_ratio,      &marks_.balloon_pressure,
-                                        &marks_.deepest,         &past_.work,
-                                        &past_.stored,           &past_.friction,
-                                        &past_.damping};
-        if (load_) numbers.insert(numbers.end(), {&load_->stopped, &load_->reached});
-        return numbers;
+        std::vector<double*> all = marks_.numbers();
+        for (const auto& more :
+             {past_.numbers(), pace_.numbers(), std::vector{&done_}, load_ ? load_->numbers() : std::vector<double*>{}})
+            all.insert(all.end(), more.begin(), more.end());
+        return all;
     }
 
     void stop_load() {
-        load_->reached = load_->pressure(time());
-        load_->stopped = time();
+        load_->reached = load_->pressure(done_);
+        load_->stopped = done_;
         marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
         say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load_->reached,
                         1e3 * profile_.mean_diameter));
@@ -298,9 +274,9 @@ private:
     }
 
     double tool_radius() const {
-        if (phase_ <= DeployPhase::release) return program_.crimper(time());
-        if (phase_ == DeployPhase::enter) return program_.predilation(time());
-        return balloon_ ? program_.balloon(time()) : 0;
+        if (phase_ <= DeployPhase::release) return program_.crimper(done_);
+        if (phase_ == DeployPhase::enter) return program_.predilation(done_);
+        return balloon_ ? program_.balloon(done_) : 0;
     }
 
     /// The stent where it is at the end of a step.
@@ -311,26 +287,33 @@ private:
     }
 
     /// A row of the table, now and then a picture.
-    void look(double row) {
+    void look() {
         measure();
         const BodyEnergy stent = energy_of(*stent_), wall = has_wall() ? energy_of(*wall_) : BodyEnergy{};
         Contact* tool = phase_ <= DeployPhase::release ? crimper_ : balloon_;
-        const double pressure = tool ? tool->report().pressure : load_ ? load_->pressure(time()) : 0;
+        const double pressure = tool ? tool->report().pressure : load_ ? load_->pressure(done_) : 0;
         if (stent_on_wall_) marks_.deepest = std::max(marks_.deepest, stent_on_wall_->report().deepest);
-        if (phase_ == DeployPhase::open) {
-            marks_.balloon_pressure = std::max(marks_.balloon_pressure, pressure);
-            const double first_tenth =
-                0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
-            const bool is_driven = !(load_ && load_->stopped < INFINITY);
-            if (marks_.touched == 0 && marks_.deepest > 0) marks_.touched = time();
-            if (is_driven && time() > program_.open_from + first_tenth)
-                marks_.stent_ratio = std::max(marks_.stent_ratio, stent.ratio());
-            if (is_driven && marks_.touched > 0 && time() > marks_.touched + first_tenth)
-                marks_.wall_ratio = std::max(marks_.wall_ratio, wall.ratio());
-        }
-        record_->add({time(), phase_, tool_radius(), pressure, stent, wall, marks_.deepest}, profile_);
+        if (phase_ == DeployPhase::open) marks_.balloon_pressure = std::max(marks_.balloon_pressure, pressure);
+        record_->add({time(), phase_, tool_radius(), pressure, stent, wall, marks_.deepest, pace_.rate(time())},
+                     profile_);
+        keep_pace(stent.ratio(), wall.ratio());
         const double frame = program_.end() / config_.deployment.frames;
-        if (record_->frames() == 0 || time() >= frame * double(record_->frames()) - 0.5 * row) write_frames(nullptr);
+        if (record_->frames() == 0 || done_ >= frame * double(record_->frames()) - 0.5 * row()) write_frames(nullptr);
+    }
+
+    /// What counts of kinetic over internal energies, and what is made of it.
+    void keep_pace(double stent, double wall) {
+        if (phase_ == DeployPhase::settle) return pace_.recover(time());
+        const bool is_driven = !(load_ && load_->is_stopped());
+        if (phase_ == DeployPhase::deflate) pace_.heed(time(), stent);
+        if (phase_ != DeployPhase::open || !is_driven) return;
+        const double first_tenth =
+            0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
+        if (marks_.touched == 0 && marks_.deepest > 0) marks_.touched = done_;
+        if (done_ > program_.open_from + first_tenth) marks_.stent_ratio = std::max(marks_.stent_ratio, stent);
+        const bool wall_counts = marks_.touched > 0 && done_ > marks_.touched + first_tenth;
+        if (wall_counts) marks_.wall_ratio = std::max(marks_.wall_ratio, wall);
+        pace_.heed(time(), wall_counts ? std::max(stent, wall) : stent);
     }
 
     void write_frames(const SignedDistance* lumen) {
@@ -354,11 +337,15 @@ private:
             name_of(phase), 1e3 * time(), 1e3 * profile_.mean_diameter, 1e3 * profile_.least_diameter,
             1e3 * profile_.most_diameter, 1e3 * profile_.length, scene_->solids.steps, watch_.wall()));
         if (phase == DeployPhase::crimp) expect_crimped();
+        if (phase == DeployPhase::open && pace_.least_rate() < 1)
+            say(fmt::format(
+                "it was opened up to {:.2g} times more slowly than its ramp, or it would have moved too fast",
+                1 / pace_.least_rate()));
         if (phase <= DeployPhase::enter)
             marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
         if (phase == DeployPhase::hold && marks_.opened_diameter == 0)
             marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
-        if (phase == DeployPhase::open && load_ && load_->stopped == INFINITY) {
+        if (phase == DeployPhase::open && load_ && !load_->is_stopped()) {
             stage_.log(LogLevel::warning, "the load did not open the stent to the wanted diameter");
             stop_load();
         }
@@ -387,6 +374,7 @@ private:
         deploy["kinetic_to_internal"] = std::max(marks_.stent_ratio, marks_.wall_ratio);
         deploy["kinetic_to_internal_stent"] = marks_.stent_ratio;
         deploy["kinetic_to_internal_wall"] = marks_.wall_ratio;
+        deploy["slowest_pace"] = pace_.least_rate();
         deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
         deploy["energies"] = energies();
         deploy["largest_tool_pressure_pa"] = marks_.balloon_pressure;
@@ -419,12 +407,14 @@ private:
     Stopwatch watch_;
     std::unique_ptr<DeployScene> scene_;
     DeployProgram program_;
+    DeployPace pace_{1, 1};
+    double done_ = 0;                                // of the program, to its last row [s]
     SolidPart *stent_ = nullptr, *wall_ = nullptr;   // wherever they are
     Contact *crimper_ = nullptr, *predilator_ = nullptr, *stent_on_wall_ = nullptr, *balloon_ = nullptr;
     std::shared_ptr<RadialLoad> load_;
     DeployPhase phase_ = DeployPhase::crimp;
     StentProfile profile_;
-    Marks marks_;
+    DeployMarks marks_;
     ContactAccount past_;   // of contacts that are over
     std::unique_ptr<DeployRecord> record_;
     std::vector<double> contact_steps_;   // of the phases that have begun: what their contacts are as stiff for [s]

@@ -21,7 +21,8 @@ const std::vector<std::string> table_columns = {"time_s",
                                                 "stent_plastic_j",
                                                 "wall_kinetic_j",
                                                 "wall_internal_j",
-                                                "penetration_mm"};
+                                                "penetration_mm",
+                                                "pace"};
 
 PvdWriter series(const OutputFolder& folder, const char* name, std::optional<double> from) {
     return from ? PvdWriter::resumed(folder.file(name), *from) : PvdWriter(folder.file(name));
@@ -44,7 +45,7 @@ void DeployRecord::add(const DeployInstant& now, const StentProfile& profile) {
     table_.write_row({now.time, double(now.phase), 1e3 * now.tool_radius, 1e3 * profile.mean_diameter,
                       1e3 * profile.least_diameter, 1e3 * profile.most_diameter, 1e3 * profile.length,
                       now.tool_pressure, now.stent.kinetic, now.stent.internal, now.stent.plastic, now.wall.kinetic,
-                      now.wall.internal, 1e3 * now.deepest});
+                      now.wall.internal, 1e3 * now.deepest, now.pace});
 }
 
 void DeployRecord::add_frames(double time, const PolyData& stent, const PolyData& wall) {

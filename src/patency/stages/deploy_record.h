@@ -22,6 +22,7 @@ struct DeployInstant {
     double tool_radius, tool_pressure;   ///< [m], [Pa]
     BodyEnergy stent, wall;
     double deepest;   ///< of stent in wall so far [m]
+    double pace;      ///< of the program's time over that of the solids
 };
 
 class DeployRecord {

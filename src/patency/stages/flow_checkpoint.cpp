@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "patency/base/errors.h"
 #include "patency/config/deck.h"
 #include "patency/io/hash.h"
 #include "patency/stages/build.h"
