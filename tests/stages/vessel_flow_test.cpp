@@ -261,7 +261,7 @@ TEST(RunFlow, AVesselThatIsInterruptedGoesOnToTheSameBytes) {
     const deck::Case config = narrowed_tube(
         folder.path / "deck", "duration: \"10 ms\", convergence: {tolerance_percent: 1e-3, window: \"2.5 ms\"}");
     const std::vector<std::string> names{"summary.json", "sections.csv",   "pullback.csv", "waveforms.csv",
-                                         "wall.vtp",     "centreline.vtp", "cut.vtp",      "streamlines.vtp"};
+                                         "wall.vtp",     "centerline.vtp", "cut.vtp",      "streamlines.vtp"};
     std::map<std::string, std::string> whole;
     const OutputFolder out(folder.path / "out");
     const Outcome outcome = run_flow(config, {.folder = out});
@@ -325,7 +325,7 @@ TEST(RunFlow, AVesselTooShortForSectionsHasResultsWithoutThem) {
     const deck::Case config = deck::read_case(folder.path / "deck/tube.yaml",
                                               {"geometry.lesion=null", "numerics.spacing=null", "numerics.across=6"});
     EXPECT_EQ(run_flow(config, {.folder = OutputFolder(folder.path / "out")}), Outcome::done);
-    EXPECT_TRUE(fs::exists(folder.path / "out/centreline.vtp"));
+    EXPECT_TRUE(fs::exists(folder.path / "out/centerline.vtp"));
 }
 
 TEST(RunFlow, CellsTellAVesselsFlowLikeParticles) {

@@ -27,7 +27,7 @@ constexpr std::string_view marker_text =
 constexpr std::string_view result_folders[] = {"checkpoint", "frames"};
 constexpr std::string_view result_files[] = {
     "summary.json",   "timing.json",        "pullback.csv",    "sections.csv",    "waveforms.csv",   "report.html",
-    "log.txt",        "case.resolved.yaml", "wall.vtp",        "centreline.vtp",  "cut.vtp",         "streamlines.vtp",
+    "log.txt",        "case.resolved.yaml", "wall.vtp",        "centerline.vtp",  "cut.vtp",         "streamlines.vtp",
     "offenders.vtp",  "energies.csv",       "lumen_after.stl", "lumen_after.vtp", "case_after.yaml", "origin.json",
     "deployment.csv", "stent.csv",          "stent.vtp",       "sweep.json",      "sweep.csv"};
 

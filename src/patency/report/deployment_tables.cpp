@@ -30,7 +30,8 @@ std::string rows_of_numbers(const Figures& f, const Json& part, const std::strin
 
 /// Of the deployment what says how the stent sits.
 std::string fit_table(const Figures& f, const Json& deploy) {
-    const std::set<std::string> effort{"energies", "stresses", "particles", "spacing_mm", "mass_scaling", "steps"};
+    const std::set<std::string> effort{"energies",     "stresses", "particles",   "spacing_mm",
+                                       "mass_scaling", "steps",    "slowest_pace"};
     Json part;
     for (const auto& [key, value] : deploy.items())
         if (!effort.contains(key)) part[key] = value;
@@ -87,7 +88,7 @@ std::string deployment_tables(const RunResults& results) {
             if (value.is_number()) shared[key] = value;
         rows = rows_of_numbers(f, shared, "/deploy/energies");
     }
-    for (const char* key : {"particles", "spacing_mm", "mass_scaling", "steps"})
+    for (const char* key : {"particles", "spacing_mm", "mass_scaling", "steps", "slowest_pace"})
         if (deploy.contains(key)) rows += rows_of_numbers(f, Json{{key, deploy[key]}}, "/deploy");
     if (!rows.empty()) tables += table("What the deployment took", {"Quantity", "Value"}, rows);
     return tables;

@@ -248,7 +248,7 @@ void write_centreline(const OutputFolder& folder, const Scene& scene, const Vess
     data.arrays = {arc, radius, pressure, rate, mean, peak};
     if (!ffr.values.empty()) data.arrays.push_back(ffr);
     data.integers = {branch};
-    write_polydata(folder.file("centreline.vtp"), data);
+    write_polydata(folder.file("centerline.vtp"), data);
 }
 
 void write_streamlines(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder) {

@@ -57,7 +57,7 @@ void add_vessel_summary(nlohmann::ordered_json& summary, const Scene& scene, con
                         const VesselFlow& flow);
 
 /// sections.csv: every station. pullback.csv: along the line to every outlet. wall.vtp: pressure and shear on the surface's
-/// triangles. centreline.vtp: the lines with pressure, flow, velocities and FFR. cut.vtp: means on the surface that they sweep out.
+/// triangles. centerline.vtp: the lines with pressure, flow, velocities and FFR. cut.vtp: means on the surface that they sweep out.
 /// streamlines.vtp: from the inlet through the last state. Throws FileError.
 void write_vessel_files(const OutputFolder& folder, const Scene& scene, const VesselRecorder& recorder,
                         const VesselFlow& flow);
