@@ -8,13 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "patency/base/errors.h"
-#include "patency/bodies/radial_tool.h"
-#include "patency/bodies/stent_skin.h"
-#include "patency/bodies/tether.h"
 #include "patency/config/deck.h"
 #include "patency/io/summary.h"
 #include "patency/shape/exact_distance.h"
-#include "patency/stages/deploy_account.h"
+#include "patency/stages/deploy_contacts.h"
 #include "patency/stages/deploy_pace.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_record.h"
@@ -44,7 +41,8 @@ public:
         scene_ = build_deployment(config);
         program_ = make_deploy_program(scene_->place, config.deployment);
         pace_ = DeployPace(row(), config.deployment.slowing);
-        stent_ = scene_->stent.get(), wall_ = scene_->wall.get();
+        contacts_ = std::make_unique<DeployContacts>(*scene_, program_, pace_);
+        stent_ = &contacts_->stent(), wall_ = &contacts_->wall();
         if (goes_on)
             read_checkpoint();
         else
@@ -56,7 +54,7 @@ public:
     bool run() {
         const auto& phases = program_.phases;
         for (std::size_t k = contact_steps_.empty() ? 0 : contact_steps_.size() - 1; k < phases.size(); ++k) {
-            if (k == contact_steps_.size()) contact_steps_.push_back(begin(phases[k].phase, {}));
+            if (k == contact_steps_.size()) begin(phases[k].phase, {});
             if (!advance(phases[k])) return false;
             end(phases[k].phase);
         }
@@ -89,78 +87,9 @@ private:
                         wall_->body->stable_step(), program_.end()));
     }
 
-    bool has_wall() const { return scene_->wall == nullptr; }
-
-    /// Whatever touches in a phase, for this time step [s]; none: for the stable one, which is returned.
-    double begin(DeployPhase phase, std::optional<double> known_step) {
-        SolidSystem& solids = system();
-        if (scene_->stent) solids.parts.push_back(std::move(scene_->stent));
-        const bool needs_wall = phase != DeployPhase::crimp && phase != DeployPhase::release;
-        if (scene_->wall && (needs_wall || program_.predilation)) solids.parts.push_back(std::move(scene_->wall));
-        // What a tool drives goes slowly enough by itself; damping would take the work that is to be done on metal and wall. What is let go
-        // comes to rest.
-        solids.is_relaxed = phase == DeployPhase::release || phase == DeployPhase::hold || phase == DeployPhase::settle;
-        const double step = known_step ? *known_step : stable_step(solids);
-        const auto tool = [&](SolidSurface& surface, RadialTool::Kind kind, const auto& radius) {
-            return make_tool_contact(surface,
-                                     {.kind = kind,
-                                      .axis = scene_->place.axis,
-                                      .length = scene_->place.pattern.length,
-                                      .radius = [this, radius](double t) { return radius(pace_.program(t)); }},
-                                     {.friction = config_.deployment.balloon_friction, .step = step});
-        };
+    void begin(DeployPhase phase, std::optional<double> known_step) {
+        contact_steps_.push_back(contacts_->begin(phase, known_step));
         phase_ = phase;
-        if (phase == DeployPhase::crimp) {
-            crimper_ = add(tool(*stent_->surface, RadialTool::Kind::crimper, program_.crimper));
-            add(tool(*stent_->surface, RadialTool::Kind::balloon,
-                     program_.balloon));   // folded: what it is crimped onto
-        } else if (needs_wall && !stent_on_wall_) {
-            for (const auto& gone : solids.contacts) past_.add(gone->report());
-            solids.contacts.clear();
-            crimper_ = predilator_ = nullptr;
-            if (config_.deployment.tethering > 0)
-                add(make_tether(*wall_->surface, 1, config_.deployment.tethering));   // the outer face
-            stent_on_wall_ = add(make_surface_contact(*stent_->surface, *wall_->surface,
-                                                      {.friction = config_.deployment.friction,
-                                                       .damping = damping_when_driven,
-                                                       .step = step,
-                                                       .hold = hold_when_driven}));
-        }
-        if (phase == DeployPhase::enter && !balloon_)   // folded within the stent, which the wall closes on
-            balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
-        if (program_.predilation && !predilator_ && phase <= DeployPhase::enter)
-            predilator_ = add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.predilation));
-        if (phase == DeployPhase::open) open(tool);
-        return step;
-    }
-
-    template <class Tool>
-    void open(const Tool& tool) {
-        const bool by_balloon = config_.deployment.mode == deck::DeploymentMode::balloon;
-        drop_last(predilator_);
-        if (!by_balloon) drop_last(balloon_);
-        if (by_balloon) {
-            if (!balloon_) balloon_ = add(tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon));
-            add(tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon));
-            return;
-        }
-        load_ = std::make_shared<RadialLoad>(
-            RadialLoad{.from = program_.open_from, .ramp = config_.deployment.ramp, .most = config_.deployment.load});
-        stent_->pressures.push_back(
-            {stent_inner, [this, load = load_](double t) { return load->pressure(pace_.program(t)); }});
-    }
-
-    /// A tool that is done, if it is there: the last contact.
-    void drop_last(Contact*& tool) {
-        if (!tool) return;
-        past_.add(tool->report());
-        system().contacts.pop_back();
-        tool = nullptr;
-    }
-
-    Contact* add(std::unique_ptr<Contact> contact) {
-        system().contacts.push_back(std::move(contact));
-        return system().contacts.back().get();
     }
 
     bool advance(const DeployProgram::Entry& entry) {
@@ -179,15 +108,14 @@ private:
             if (time() >= next_time) {
                 done_ = next;
                 look();
+                const RadialLoad* load = contacts_->load();
+                if (load && !load->is_stopped() && profile_.mean_diameter >= scene_->place.diameter) stop_load();
             }
             if (stage_.progress)
                 stage_.progress->update({.stage = std::string(name_of(entry.phase)),
                                          .fraction = pace_.program(time()) / program_.end(),
                                          .time = time(),
                                          .step = scene_->solids.steps});
-            if (load_ && entry.phase == DeployPhase::open && !load_->is_stopped() &&
-                profile_.mean_diameter >= scene_->place.diameter)
-                stop_load();
             if (is_stopped || is_checkpoint_due()) write_checkpoint();
             if (is_stopped) {
                 say(fmt::format("interrupted at {:.6g} s; a checkpoint was written", time()));
@@ -222,7 +150,6 @@ private:
         reader.expect_origin(origin_);
         const auto steps = reader.read<std::vector<double>>("contact_steps");
         for (std::size_t k = 0; k < steps.size(); ++k) begin(program_.phases.at(k).phase, steps[k]);
-        contact_steps_ = steps;
         read_solids(reader, system(), "solids");
         scene_->solids.time = reader.read<double>("time");
         scene_->solids.dt = reader.read<double>("dt");
@@ -237,47 +164,20 @@ private:
     /// What is known of the past.
     std::vector<double*> known_numbers() {
         std::vector<double*> all = marks_.numbers();
-        for (const auto& more :
-             {past_.numbers(), pace_.numbers(), std::vector{&done_}, load_ ? load_->numbers() : std::vector<double*>{}})
+        for (const auto& more : {contacts_->numbers(), pace_.numbers(), std::vector{&done_}})
             all.insert(all.end(), more.begin(), more.end());
         return all;
     }
 
     void stop_load() {
-        load_->reached = load_->pressure(done_);
-        load_->stopped = done_;
+        RadialLoad& load = *contacts_->load();
+        load.reached = load.pressure(done_);
+        load.stopped = done_;
         marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
-        say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load_->reached,
+        say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load.reached,
                         1e3 * profile_.mean_diameter));
     }
-
-    /// Where the work of the tools is.
-    Json energies() {
-        ContactAccount contacts = past_;
-        contacts.stored = 0;   // of those that are gone
-        for (const auto& c : system().contacts) contacts.add(c->report());
-        double kept = contacts.stored + contacts.friction + contacts.damping;
-        Json energies = {{"tool_work_j", contacts.work},
-                         {"friction_loss_j", contacts.friction},
-                         {"contact_damping_loss_j", contacts.damping}};
-        for (const auto& part : system().parts) {
-            const SolidEnergy e = part->body->energy();
-            energies[part->name] = {{"kinetic_j", e.kinetic},        {"elastic_j", e.elastic},
-                                    {"plastic_j", e.plastic},        {"hourglass_j", e.hourglass},
-                                    {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous},
-                                    {"drag_loss_j", e.drag}};
-            kept += e.kinetic + e.internal() + e.lost();
-        }
-        if (!load_ && contacts.work > 0)
-            energies["imbalance_percent"] = 100 * std::abs(contacts.work - kept) / contacts.work;
-        return energies;
-    }
-
-    double tool_radius() const {
-        if (phase_ <= DeployPhase::release) return program_.crimper(done_);
-        if (phase_ == DeployPhase::enter) return program_.predilation(done_);
-        return balloon_ ? program_.balloon(done_) : 0;
-    }
+    bool is_load_off() const { return contacts_->load() && contacts_->load()->is_stopped(); }
 
     /// The stent where it is at the end of a step.
     void measure() {
@@ -289,13 +189,14 @@ private:
     /// A row of the table, now and then a picture.
     void look() {
         measure();
-        const BodyEnergy stent = energy_of(*stent_), wall = has_wall() ? energy_of(*wall_) : BodyEnergy{};
-        Contact* tool = phase_ <= DeployPhase::release ? crimper_ : balloon_;
-        const double pressure = tool ? tool->report().pressure : load_ ? load_->pressure(done_) : 0;
-        if (stent_on_wall_) marks_.deepest = std::max(marks_.deepest, stent_on_wall_->report().deepest);
+        const BodyEnergy stent = energy_of(*stent_), wall = contacts_->has_wall() ? energy_of(*wall_) : BodyEnergy{};
+        const double pressure = contacts_->tool_pressure(done_);
+        if (const Contact* touch = contacts_->stent_on_wall())
+            marks_.deepest = std::max(marks_.deepest, touch->report().deepest);
         if (phase_ == DeployPhase::open) marks_.balloon_pressure = std::max(marks_.balloon_pressure, pressure);
-        record_->add({time(), phase_, tool_radius(), pressure, stent, wall, marks_.deepest, pace_.rate(time())},
-                     profile_);
+        record_->add(
+            {time(), phase_, contacts_->tool_radius(done_), pressure, stent, wall, marks_.deepest, pace_.rate(time())},
+            profile_);
         keep_pace(stent.ratio(), wall.ratio());
         const double frame = program_.end() / config_.deployment.frames;
         if (record_->frames() == 0 || done_ >= frame * double(record_->frames()) - 0.5 * row()) write_frames(nullptr);
@@ -304,9 +205,8 @@ private:
     /// What counts of kinetic over internal energies, and what is made of it.
     void keep_pace(double stent, double wall) {
         if (phase_ == DeployPhase::settle) return pace_.recover(time());
-        const bool is_driven = !(load_ && load_->is_stopped());
         if (phase_ == DeployPhase::deflate) pace_.heed(time(), stent);
-        if (phase_ != DeployPhase::open || !is_driven) return;
+        if (phase_ != DeployPhase::open || is_load_off()) return;
         const double first_tenth =
             0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
         if (marks_.touched == 0 && marks_.deepest > 0) marks_.touched = done_;
@@ -345,7 +245,7 @@ private:
             marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
         if (phase == DeployPhase::hold && marks_.opened_diameter == 0)
             marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
-        if (phase == DeployPhase::open && load_ && !load_->is_stopped()) {
+        if (phase == DeployPhase::open && contacts_->load() && !is_load_off()) {
             stage_.log(LogLevel::warning, "the load did not open the stent to the wanted diameter");
             stop_load();
         }
@@ -376,9 +276,10 @@ private:
         deploy["kinetic_to_internal_wall"] = marks_.wall_ratio;
         deploy["slowest_pace"] = pace_.least_rate();
         deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
-        deploy["energies"] = energies();
+        deploy["energies"] = energies_json(system(), contacts_->account(), !contacts_->load());
         deploy["largest_tool_pressure_pa"] = marks_.balloon_pressure;
-        deploy["stresses"] = stresses_json(*stent_, *wall_, axis, profile_.length, stent_on_wall_->pushes());
+        deploy["stresses"] =
+            stresses_json(*stent_, *wall_, axis, profile_.length, contacts_->stent_on_wall()->pushes());
         deploy["particles"] = {{"stent", stent_->body->particles().size()}, {"wall", wall_->body->particles().size()}};
         deploy["spacing_mm"] = {{"stent", 1e3 * scene_->stent_spacing}, {"wall", 1e3 * scene_->wall_spacing}};
         deploy["mass_scaling"] = scene_->mass_scaling;
@@ -410,12 +311,10 @@ private:
     DeployPace pace_{1, 1};
     double done_ = 0;                                // of the program, to its last row [s]
     SolidPart *stent_ = nullptr, *wall_ = nullptr;   // wherever they are
-    Contact *crimper_ = nullptr, *predilator_ = nullptr, *stent_on_wall_ = nullptr, *balloon_ = nullptr;
-    std::shared_ptr<RadialLoad> load_;
+    std::unique_ptr<DeployContacts> contacts_;
     DeployPhase phase_ = DeployPhase::crimp;
     StentProfile profile_;
     DeployMarks marks_;
-    ContactAccount past_;   // of contacts that are over
     std::unique_ptr<DeployRecord> record_;
     std::vector<double> contact_steps_;   // of the phases that have begun: what their contacts are as stiff for [s]
     CheckpointOrigin origin_;

@@ -100,6 +100,24 @@ std::map<std::uint32_t, Vec3> forces_on_vertices(const std::vector<Contact::Push
     return forces;
 }
 
+nlohmann::ordered_json energies_json(SolidSystem& system, const ContactAccount& contacts, bool is_all_by_tools) {
+    double kept = contacts.stored + contacts.friction + contacts.damping;
+    nlohmann::ordered_json energies = {{"tool_work_j", contacts.work},
+                                       {"friction_loss_j", contacts.friction},
+                                       {"contact_damping_loss_j", contacts.damping}};
+    for (const auto& part : system.parts) {
+        const SolidEnergy e = part->body->energy();
+        energies[part->name] = {{"kinetic_j", e.kinetic},        {"elastic_j", e.elastic},
+                                {"plastic_j", e.plastic},        {"hourglass_j", e.hourglass},
+                                {"hourglass_loss_j", e.yielded}, {"viscous_loss_j", e.viscous},
+                                {"drag_loss_j", e.drag}};
+        kept += e.kinetic + e.internal() + e.lost();
+    }
+    if (is_all_by_tools && contacts.work > 0)
+        energies["imbalance_percent"] = 100 * std::abs(contacts.work - kept) / contacts.work;
+    return energies;
+}
+
 Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
                    const std::vector<Contact::Push>& pushes) {
     const std::vector<double> wall_stress = von_mises_of(wall);

@@ -9,6 +9,7 @@
 
 #include "patency/analysis/stent_metrics.h"
 #include "patency/io/vtp.h"
+#include "patency/stages/deploy_account.h"
 #include "patency/stages/deploy_results.h"
 #include "patency/stages/deploy_scene.h"
 
@@ -31,6 +32,9 @@ PolyData wall_picture(SolidPart& wall);
 
 /// What pushes on each of the stent's vertices: several of the wall's may push on one [N].
 std::map<std::uint32_t, Vec3> forces_on_vertices(const std::vector<Contact::Push>& pushes);
+
+/// Where the work of the tools is: of each body, of its contacts, and what is missing if tools did all of it.
+nlohmann::ordered_json energies_json(SolidSystem& system, const ContactAccount& contacts, bool is_all_by_tools);
 
 /// Percentiles of the wall's von Mises stress along the stent, layer by layer; of the stent's plastic strain and stress; of the pressure on its outer face.
 nlohmann::ordered_json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
