@@ -37,7 +37,7 @@ RING = """stent:
   pattern: {rings: 1, crowns: 6, length: "1.2 mm", diameter: "2 mm", crimped_diameter: "1.8 mm", nominal_diameter: "3.3 mm", strut_width: "0.12 mm",
             strut_thickness: "0.12 mm", crown_radius: "0.15 mm", gap: "0.2 mm", connectors: 3}
 wall: {spacing: "0.25 mm", plaque: none}
-deployment: {mode: balloon, diameter: "3 mm", crimped_diameter: "1.7 mm", ramp: "1.8 ms", steps: 300, slowing: 1.5, region: 1.2, frames: 4}
+deployment: {mode: balloon, diameter: "3 mm", crimped_diameter: "1.7 mm", ramp: "1.8 ms", steps: 300, slowing: 2, region: 1.2, frames: 4}
 """
 CELLS = 'numerics: {spacing: "0.4 mm", duration: "1 s"}\n'
 SCHEMES = {"sph": GEOMETRIC + 'numerics: {scheme: sph, spacing: "0.4 mm", duration: "8 ms"}\noutput: {interval: "3 ms", checkpoint_interval: "1 ms"}\n',

@@ -119,7 +119,7 @@ openings: {inlet: {type: velocity, velocity: 0.2 m/s}, outlet: {type: pressure, 
 wall: {spacing: 0.25 mm, plaque: fills}
 stent: {pattern: {rings: 1, crowns: 6, length: 1.2 mm, diameter: 2 mm, crimped_diameter: 1.8 mm, nominal_diameter: 3.3 mm, strut_width: 0.1 mm,
                   strut_thickness: 0.1 mm, crown_radius: 0.15 mm, gap: 0.2 mm, connectors: 3}}
-deployment: {mode: balloon, crimped_diameter: 1.8 mm, predilation: 2.2 mm, ramp: 1.8 ms, steps: 900, slowing: 1.5, frames: 4}
+deployment: {mode: balloon, crimped_diameter: 1.8 mm, predilation: 2.2 mm, ramp: 1.8 ms, steps: 900, frames: 4}
 numerics: {scheme: cells, across: 12, duration: 1 s}
 )");
     return deck::read_case(folder / "case.yaml");

@@ -90,6 +90,9 @@ private:
     void begin(DeployPhase phase, std::optional<double> known_step) {
         contact_steps_.push_back(contacts_->begin(phase, known_step));
         phase_ = phase;
+        if (known_step) return;   // the pace is known too
+        if (phase == DeployPhase::open) pace_.set_out(time());
+        if (phase == DeployPhase::settle) pace_.rest(time());
     }
 
     bool advance(const DeployProgram::Entry& entry) {
@@ -204,7 +207,6 @@ private:
 
     /// What counts of kinetic over internal energies, and what is made of it.
     void keep_pace(double stent, double wall) {
-        if (phase_ == DeployPhase::settle) return pace_.recover(time());
         if (phase_ == DeployPhase::deflate) pace_.heed(time(), stent);
         if (phase_ != DeployPhase::open || is_load_off()) return;
         const double first_tenth =
@@ -239,8 +241,8 @@ private:
         if (phase == DeployPhase::crimp) expect_crimped();
         if (phase == DeployPhase::open && pace_.least_rate() < 1)
             say(fmt::format(
-                "it was opened up to {:.2g} times more slowly than its ramp, or it would have moved too fast",
-                1 / pace_.least_rate()));
+                "at its own pace the ramp took {:.2f} times as long, and at the slowest {:.2f} of its speed",
+                1 + (time() - done_) / config_.deployment.ramp, pace_.least_rate()));
         if (phase <= DeployPhase::enter)
             marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
         if (phase == DeployPhase::hold && marks_.opened_diameter == 0)

@@ -10,20 +10,23 @@ namespace patency {
 
 namespace {
 
-constexpr double wanted_ratio = 0.9 * most_kinetic_to_internal;
-constexpr double most_change = 1.1;   // at a time: hardly more than a ramp's own speed changes where it sets out
+constexpr double wanted_ratio = 0.8 * most_kinetic_to_internal;   // on average: it swings
+constexpr double feared_ratio = 2 * most_kinetic_to_internal;     // at full rate, of what is not known yet
+constexpr double looks_remembered = 20;                           // longer than a swing takes
+constexpr double most_change = 1.03;   // from look to look: a tool that brakes harder is left
 
 }   // namespace
 
-DeployPace::DeployPace(double change, double slowing) : change_(change), slowest_(1 / slowing) {}
+DeployPace::DeployPace(double between_looks, double slowing)
+    : between_(between_looks), slowest_(1 / slowing), at_full_rate_(feared_ratio) {}
 
 double DeployPace::rate(double time) const {
-    return from_ + (to_ - from_) * std::clamp((time - since_) / change_, 0.0, 1.0);
+    return from_ + (to_ - from_) * std::clamp((time - since_) / between_, 0.0, 1.0);
 }
 
 double DeployPace::lag(double time) const {
-    const double passed = time - since_, changing = std::clamp(passed, 0.0, change_), changed = passed - changing;
-    const double mean = from_ + (to_ - from_) * changing / (2 * change_);
+    const double passed = time - since_, changing = std::clamp(passed, 0.0, between_), changed = passed - changing;
+    const double mean = from_ + (to_ - from_) * changing / (2 * between_);
     return lag_ + (1 - mean) * changing + (1 - (passed < 0 ? from_ : to_)) * changed;
 }
 
@@ -38,18 +41,27 @@ double DeployPace::time_of(double program) const {
     return time;
 }
 
-void DeployPace::heed(double time, double ratio) {
+double DeployPace::allowed() const {
     // An energy of motion goes with the square of the speed.
-    change_to(time, ratio > 0 ? rate(time) * std::sqrt(wanted_ratio / ratio) : 1.0);
+    return at_full_rate_ > 0 ? std::clamp(std::sqrt(wanted_ratio / at_full_rate_), slowest_, 1.0) : 1.0;
 }
 
-void DeployPace::change_to(double time, double wanted) {
+void DeployPace::set_out(double time) { change(time, allowed(), allowed()); }
+
+void DeployPace::heed(double time, double ratio) {
     const double now = rate(time);
+    at_full_rate_ += (ratio / (now * now) - at_full_rate_) / looks_remembered;
+    change(time, now, std::clamp(allowed(), now / most_change, now * most_change));
+}
+
+void DeployPace::rest(double time) { change(time, 1, 1); }
+
+void DeployPace::change(double time, double from, double to) {
     lag_ = lag(time);
     since_ = time;
-    from_ = now;
-    to_ = std::clamp(std::clamp(wanted, now / most_change, now * most_change), slowest_, 1.0);
-    least_ = std::min(least_, to_);
+    from_ = from;
+    to_ = to;
+    least_ = std::min({least_, from, to});
 }
 
 }   // namespace patency

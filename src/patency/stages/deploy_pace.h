@@ -10,10 +10,11 @@ namespace patency {
 /// move too fast. All times in [s].                                                                     THEORY (21.16)
 class DeployPace {
 public:
-    /// A change of pace takes so long; it is at the most so many times slower than the solids' time (>= 1; 1: never).
-    DeployPace(double change, double slowing);
+    /// Looks at what is driven are so far apart in the program; it is at the most so many times slower than the solids' time
+    /// (>= 1; 1: never).
+    DeployPace(double between_looks, double slowing);
 
-    /// Of the program; while nothing was ever too fast, the time itself to the last bit.
+    /// Of the program; before it first sets out, the time itself to the last bit.
     double program(double time) const { return time - lag(time); }
     /// When the program will be there.
     double time_of(double program) const;
@@ -21,22 +22,26 @@ public:
     double rate(double time) const;
     double least_rate() const { return least_; }
 
-    /// What is driven has this kinetic over internal energy now; no more often than a change takes.
+    /// Something is driven from now on: as fast as what is known of it allows. Only while tools stand still, whose speed would jump.
+    void set_out(double time);
+    /// At a look: what is driven has this kinetic over internal energy.
     void heed(double time, double ratio);
-    /// Nothing is driven any more: as fast as it may, from now on.
-    void recover(double time) { change_to(time, 1); }
+    /// Nothing is driven any more, and tools stand still: as fast as it may.
+    void rest(double time);
 
     /// All that it knows of the past, to be kept and put back.
-    std::vector<double*> numbers() { return {&since_, &lag_, &from_, &to_, &least_}; }
+    std::vector<double*> numbers() { return {&since_, &lag_, &from_, &to_, &least_, &at_full_rate_}; }
 
 private:
     double lag(double time) const;
-    void change_to(double time, double rate);
+    double allowed() const;
+    void change(double time, double from, double to);
 
-    double change_, slowest_;
+    double between_, slowest_;
     double since_ = 0, lag_ = 0;   // the last change began then; what the program lagged behind
     double from_ = 1, to_ = 1;     // the rate before the change and after it
     double least_ = 1;             // ever
+    double at_full_rate_;          // the ratio that is expected there
 };
 
 }   // namespace patency
