@@ -179,12 +179,6 @@ TEST(DeployRecord, TheLastInstantIsReplacedByWhatShowsMore) {
     EXPECT_EQ(read_polydata(out.path / frames.back().file).points.size(), 2u);
 }
 
-TEST(DeployState, AForceOnAVertexIsAllThatPushesOnIt) {
-    const auto forces = forces_on_vertices({{7, {1, 0, 0}}, {3, {0, 2, 0}}, {7, {0, 0, 2}}});
-    ASSERT_EQ(forces.size(), 2u);
-    EXPECT_EQ(forces.at(7), (Vec3{1, 0, 2}));
-}
-
 TEST(LumenAfter, KeepsNoBranchNamesThatWouldClash) {
     BranchedLines before, after;
     const auto straight = [](double y, double length) {

@@ -200,6 +200,41 @@ std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const Ste
     return ostia;
 }
 
+std::vector<double> pressures_on(std::span<const Vec3> places, std::span<const double> areas,
+                                 std::span<const PressedPlace> presses, double reach) {
+    Vec3 low{INFINITY, INFINITY, INFINITY}, high = -1.0 * low;
+    for (const Vec3& x : places)
+        low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)},
+        high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+    const Vec3 size = high - low;
+    double Vec3::*const along = size.x >= size.y && size.x >= size.z ? &Vec3::x
+                                : size.y >= size.z                   ? &Vec3::y
+                                                                     : &Vec3::z;
+    // In the order along the longest side, what is within reach lies in one window.
+    struct Amount {
+        Vec3 place;
+        double force, area;
+        std::size_t of;   // the place it is of; none: a force's
+    };
+    constexpr std::size_t none = std::size_t(-1);
+    std::vector<Amount> amounts;
+    for (std::size_t k = 0; k < places.size(); ++k) amounts.push_back({places[k], 0, areas[k], k});
+    for (const PressedPlace& p : presses) amounts.push_back({p.place, p.force, 0, none});
+    std::stable_sort(amounts.begin(), amounts.end(),
+                     [&](const Amount& a, const Amount& b) { return a.place.*along < b.place.*along; });
+    std::vector<double> pressures(places.size());
+    auto first = amounts.begin();
+    for (const Amount& at : amounts) {
+        if (at.of == none) continue;
+        while (first->place.*along < at.place.*along - reach) ++first;
+        double force = 0, area = 0;
+        for (auto a = first; a != amounts.end() && a->place.*along <= at.place.*along + reach; ++a)
+            if (norm(a->place - at.place) <= reach) force += a->force, area += a->area;
+        if (area > 0) pressures[at.of] = force / area;
+    }
+    return pressures;
+}
+
 double weighted_percentile(std::span<const double> values, std::span<const double> weights, double share) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t(0));

@@ -70,6 +70,16 @@ struct JailedOstium {
 std::vector<JailedOstium> find_jailed_ostia(const StentProfile& shape, const StentAxis& axis,
                                             const SignedDistance& lumen, const ApposedRule& rule = {});
 
+/// A force that presses somewhere on a face [N].
+struct PressedPlace {
+    Vec3 place;
+    double force;
+};
+/// The pressure around each place of a face that has these areas [m^2]: all force within `reach` [m] of it over all area there. Forces come
+/// as far apart as the vertices of what presses, farther than the places, and say nothing of less than that.
+std::vector<double> pressures_on(std::span<const Vec3> places, std::span<const double> areas,
+                                 std::span<const PressedPlace> presses, double reach);
+
 /// The value below which this share of the weight lies; 0 of nothing.
 double weighted_percentile(std::span<const double> values, std::span<const double> weights, double share);
 

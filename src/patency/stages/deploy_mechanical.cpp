@@ -280,8 +280,8 @@ private:
         deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
         deploy["energies"] = energies_json(system(), contacts_->account(), !contacts_->load());
         deploy["largest_tool_pressure_pa"] = marks_.balloon_pressure;
-        deploy["stresses"] =
-            stresses_json(*stent_, *wall_, axis, profile_.length, contacts_->stent_on_wall()->pushes());
+        deploy["stresses"] = stresses_json(*stent_, *wall_, axis, profile_.length, contacts_->stent_on_wall()->pushes(),
+                                           scene_->wall_spacing);
         deploy["particles"] = {{"stent", stent_->body->particles().size()}, {"wall", wall_->body->particles().size()}};
         deploy["spacing_mm"] = {{"stent", 1e3 * scene_->stent_spacing}, {"wall", 1e3 * scene_->wall_spacing}};
         deploy["mass_scaling"] = scene_->mass_scaling;

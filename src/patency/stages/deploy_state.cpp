@@ -94,12 +94,6 @@ PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen) {
 
 PolyData wall_picture(SolidPart& wall) { return skin_of(wall); }
 
-std::map<std::uint32_t, Vec3> forces_on_vertices(const std::vector<Contact::Push>& pushes) {
-    std::map<std::uint32_t, Vec3> forces;
-    for (const Contact::Push& push : pushes) forces[push.vertex] += push.force;
-    return forces;
-}
-
 nlohmann::ordered_json energies_json(SolidSystem& system, const ContactAccount& contacts, bool is_all_by_tools) {
     double kept = contacts.stored + contacts.friction + contacts.damping;
     nlohmann::ordered_json energies = {{"tool_work_j", contacts.work},
@@ -119,7 +113,7 @@ nlohmann::ordered_json energies_json(SolidSystem& system, const ContactAccount& 
 }
 
 Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
-                   const std::vector<Contact::Push>& pushes) {
+                   const std::vector<Contact::Push>& pushes, double patch) {
     const std::vector<double> wall_stress = von_mises_of(wall);
     const SolidParticles& w = wall.body->particles();
     Json layers = Json::object(), strains = Json::object();
@@ -135,11 +129,17 @@ Json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, dou
     }
     const SolidParticles& s = stent.body->particles();
     const std::vector<double> volume(s.volume.begin(), s.volume.end());
-    std::vector<double> pressure, area;
-    for (const auto& [vertex, force] : forces_on_vertices(pushes)) {
-        const double a = stent.surface->area(vertex);
-        if (a > 0 && norm(force) > 0) pressure.push_back(norm(force) / a), area.push_back(a);
+    std::vector<PressedPlace> presses;
+    std::size_t piece = StentAxis::unseen;
+    for (const auto& [vertex, force] : pushes) {
+        const Vec3& x = stent.surface->position[vertex];
+        presses.push_back({x, -dot(force, axis.sight(x, piece = StentAxis::unseen).outward)});
     }
+    const OuterFaces outer = outer_faces_of(stent);
+    std::vector<double> pressure, area;
+    const std::vector<double> pressures = pressures_on(outer.places, outer.areas, presses, patch);
+    for (std::size_t k = 0; k < pressures.size(); ++k)
+        if (pressures[k] > 0) pressure.push_back(pressures[k]), area.push_back(outer.areas[k]);
     return {{"wall_von_mises_pa", layers},
             {"wall_plastic_strain", strains},
             {"stent_von_mises_pa", percentiles(von_mises_of(stent), volume)},

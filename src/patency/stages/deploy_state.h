@@ -2,8 +2,6 @@
 // A deployment at one moment, as numbers and as pictures: reads the bodies, changes nothing.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
@@ -30,14 +28,12 @@ PolyData stent_picture(SolidPart& stent, const SignedDistance* lumen);
 /// The wall's faces: von Mises stress, displacement, layer.
 PolyData wall_picture(SolidPart& wall);
 
-/// What pushes on each of the stent's vertices: several of the wall's may push on one [N].
-std::map<std::uint32_t, Vec3> forces_on_vertices(const std::vector<Contact::Push>& pushes);
-
 /// Where the work of the tools is: of each body, of its contacts, and what is missing if tools did all of it.
 nlohmann::ordered_json energies_json(SolidSystem& system, const ContactAccount& contacts, bool is_all_by_tools);
 
-/// Percentiles of the wall's von Mises stress along the stent, layer by layer; of the stent's plastic strain and stress; of the pressure on its outer face.
+/// Percentiles of the wall's von Mises stress along the stent, layer by layer; of the stent's plastic strain and stress; of the pressure on
+/// its outer face where the wall presses on it, over patches as wide as the wall's particles see [m].
 nlohmann::ordered_json stresses_json(SolidPart& stent, SolidPart& wall, const StentAxis& axis, double length,
-                                     const std::vector<Contact::Push>& pushes);
+                                     const std::vector<Contact::Push>& pushes, double patch);
 
 }   // namespace patency
