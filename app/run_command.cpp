@@ -158,7 +158,7 @@ private:
                  times = read_summary(folder_.file(stage) / "timing.json");
             if (stage == "deploy") {
                 part = Json(part["deploy"]), times = Json(times["deploy"]);
-                if (!is_quasi_static(part)) code = ExitCode::bar_missed;
+                if (!is_quasi_static(part) || !came_to_rest(part)) code = ExitCode::bar_missed;
             } else if (part.contains("convergence") && !part["convergence"].value("is_converged", true)) {
                 code = ExitCode::bar_missed;
             }

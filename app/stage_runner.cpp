@@ -112,10 +112,17 @@ ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, co
     return outcome == Outcome::done ? ExitCode::ok : ExitCode::bar_missed;
 }
 
-bool is_quasi_static(const nlohmann::ordered_json& deploy) {
-    return !deploy["kinetic_to_internal"].is_number() ||
-           deploy["kinetic_to_internal"].get<double>() < most_kinetic_to_internal;
+namespace {
+
+/// What a geometric deployment does not know is above nothing.
+bool is_below(double bar, const Json& deploy, const char* key) {
+    return !deploy.contains(key) || !deploy[key].is_number() || deploy[key].get<double>() < bar;
 }
+
+}   // namespace
+
+bool is_quasi_static(const Json& deploy) { return is_below(most_kinetic_to_internal, deploy, "kinetic_to_internal"); }
+bool came_to_rest(const Json& deploy) { return is_below(most_drift_percent, deploy, "drift_percent"); }
 
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
                           const Log& log) {
@@ -127,12 +134,17 @@ ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, 
                                    .progress = &progress});
     });
     if (!is_done) return interruption.exit_code();
-    if (is_quasi_static(read_summary(folder.file("summary.json"))["deploy"])) return ExitCode::ok;
-    log(LogLevel::warning,
-        "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so that "
-        "recoil, strains and "
-        "pressures are provisional; give deployment.steps more, or deployment.slowing");
-    return ExitCode::bar_missed;
+    const Json deploy = read_summary(folder.file("summary.json"))["deploy"];
+    if (!is_quasi_static(deploy))
+        log(LogLevel::warning,
+            "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so "
+            "that "
+            "recoil, strains and pressures are provisional; give deployment.steps more, or deployment.slowing");
+    if (!came_to_rest(deploy))
+        log(LogLevel::warning,
+            "the stent was still moving when its time was over, so that recoil and diameters are provisional; give "
+            "deployment.steps more");
+    return is_quasi_static(deploy) && came_to_rest(deploy) ? ExitCode::ok : ExitCode::bar_missed;
 }
 
 }   // namespace patency::app

@@ -145,6 +145,20 @@ TEST(DeployPace, TimeAndRateAreContinuous) {
     EXPECT_LT(pace.least_rate(), 0.9);
 }
 
+TEST(DeployPace, SkipsWhereNothingHappens) {
+    DeployPace pace(row, 4);
+    pace.set_out(0);
+    pace.heed(row, 0.2);
+    const double rate = pace.rate(3 * row);
+    ASSERT_LT(rate, 1);
+    pace.skip_to(3 * row, 0.7);
+    EXPECT_DOUBLE_EQ(pace.program(3 * row), 0.7);
+    EXPECT_DOUBLE_EQ(pace.program(3 * row + 0.1), 0.7 + 0.1 * rate);
+    EXPECT_NEAR(pace.time_of(0.7 + 0.1 * rate), 3 * row + 0.1, 1e-12);
+    pace.rest(4 * row);
+    EXPECT_NEAR(pace.program(4 * row + 0.1), 0.7 + row * rate + 0.1, 1e-12);
+}
+
 TEST(DeployPace, GoesOnFromItsNumbers) {
     DeployPace pace = paced(
                    4, [](double program, double) { return 0.02 + 0.2 * program; }, nothing),

@@ -14,6 +14,7 @@
 #include "patency/io/pvd.h"
 #include "patency/io/summary.h"
 #include "patency/io/surface_file.h"
+#include "patency/stages/deploy_contacts.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_record.h"
 #include "patency/stages/deploy_state.h"
@@ -168,6 +169,42 @@ TEST(DeployByContact, KnowsHowLongAStentIsThatComesCrimped) {
     EXPECT_NEAR(known.at(1), 2e-3, 0.02e-3);
 }
 
+/// Whether the balloon, or the load, works on anything: then the stent is not let go.
+TEST(DeployContacts, KnowWhetherAnythingHasPressed) {
+    const ScratchFolder inputs;
+    small_deployment(inputs.path());
+    const auto opened = [&](std::vector<std::string> also) {
+        for (const char* said : {"deployment.crimped_diameter=2 mm", "deployment.predilation=null",
+                                 "geometry.lesion.diameter_stenosis_percent=30"})
+            also.push_back(said);
+        return build_deployment(deck::read_case(inputs.path() / "case.yaml", also));
+    };
+    {
+        const auto scene = opened({});
+        const DeployProgram program = make_deploy_program(scene->place, scene->config.deployment);
+        const DeployPace pace(1, 1);
+        DeployContacts contacts(*scene, program, pace);
+        contacts.begin(DeployPhase::open, {});
+        EXPECT_FALSE(contacts.have_pressed(0));
+        while (scene->solids.time < 0.05e-3) step_solids(scene->solids, 0.05e-3);
+        EXPECT_TRUE(contacts.have_pressed(0.05e-3));
+        EXPECT_FALSE(contacts.have_pressed(0.05e-3)) << "nothing has happened since";
+        scene->solids.time = program.end();   // when the balloon is as small as it was
+        step_solids(scene->solids, scene->solids.time + 1e-6);
+        EXPECT_FALSE(contacts.have_pressed(scene->solids.time));
+    }
+    const auto scene = opened({"deployment.mode=radial_load", "deployment.load=1 MPa"});
+    const DeployProgram program = make_deploy_program(scene->place, scene->config.deployment);
+    const DeployPace pace(1, 1);
+    DeployContacts contacts(*scene, program, pace);
+    contacts.begin(DeployPhase::open, {});
+    EXPECT_FALSE(contacts.have_pressed(program.open_from));
+    EXPECT_TRUE(contacts.have_pressed(program.open_from + 0.1e-3));
+    contacts.load()->reached = 1e6, contacts.load()->stopped = 1e-3;
+    EXPECT_TRUE(contacts.have_pressed(1.1e-3));
+    EXPECT_FALSE(contacts.have_pressed(2e-3)) << "it has been taken off";
+}
+
 TEST(DeployRecord, TheLastInstantIsReplacedByWhatShowsMore) {
     const Folder out;
     const OutputFolder folder(out.path);
@@ -231,9 +268,23 @@ TEST(DeployProgram, CrimpsOpensAndLetsGo) {
     EXPECT_DOUBLE_EQ(p.balloon(0), 0.5e-3);           // the crimped stent's inner face
     EXPECT_DOUBLE_EQ(p.balloon(p.open_to), 1.5e-3);   // the open one's
     EXPECT_DOUBLE_EQ(p.balloon(p.phases[3].end), 1.5e-3);
-    EXPECT_DOUBLE_EQ(p.balloon(0.5 * (p.phases[3].end + p.phases[4].end)), 1.3e-3) << "slowly while the stent recoils";
-    EXPECT_DOUBLE_EQ(p.balloon(p.end()), 0.5e-3);
+    EXPECT_DOUBLE_EQ(p.deflate_from, p.phases[3].end);
+    EXPECT_DOUBLE_EQ(p.balloon(p.phases[4].end), 0.5e-3);
+    EXPECT_GT(p.usual_end, p.deflate_from);
+    EXPECT_LT(p.usual_end, p.phases[4].end) << "the balloon need not go all the way";
     EXPECT_FALSE(p.predilation);
+}
+
+/// The energy of motion goes with the square of the speed, and a stent goes back with what it has of having been opened.
+TEST(DeployProgram, TheBalloonLeavesMoreSlowlyThanItCame) {
+    const DeployProgram p = make_deploy_program(place_of(2e-3, 1.2e-3, 3.2e-3), {});
+    const double ramp = p.open_to - p.open_from, recoils = 0.2 * ramp;   // a tenth of its way and more
+    const auto gone = [&](double from, double to) { return p.balloon(from) - p.balloon(to); };
+    EXPECT_GT(gone(p.deflate_from, p.deflate_from + recoils), 0.1e-3);
+    for (double t = 0; t < recoils; t += 0.01 * ramp)
+        EXPECT_LT(gone(p.deflate_from + t, p.deflate_from + t + 0.01 * ramp), 0.01 * 1e-3);
+    EXPECT_GT(gone(p.open_to - 0.06 * ramp, p.open_to - 0.05 * ramp), -0.016e-3);
+    EXPECT_LT(gone(p.open_to - 0.06 * ramp, p.open_to - 0.05 * ramp), -0.014e-3);
 }
 
 TEST(DeployProgram, OpensTheLesionBeforeIfAsked) {

@@ -13,6 +13,8 @@ namespace patency {
 
 /// The largest kinetic over internal energy of what is driven slowly enough to be taken for at rest.
 inline constexpr double most_kinetic_to_internal = 0.05;
+/// A stent that was let go is at rest: its diameter changes by less in a tenth of the time that opened it.
+inline constexpr double most_drift_percent = 0.05;
 
 /// A piece of a stent's length.
 struct StentSlice {

@@ -150,6 +150,8 @@ constexpr StentFact stent_facts[] = {
      "metal sinks into the wall"},
     {"/kinetic_to_internal", "Kinetic over internal energy", [](double v) { return v < most_kinetic_to_internal; },
      "deployed slowly enough", "deployed too fast to be trusted"},
+    {"/drift_percent", "Last change of diameter", [](double v) { return v < most_drift_percent; }, "it came to rest",
+     "it was still moving"},
 };
 
 std::string stent_card(const RunResults& results) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "patency/stages/deploy_contacts.h"
 
+#include <utility>
+
 #include "patency/bodies/stent_skin.h"
 #include "patency/bodies/tether.h"
 
@@ -51,7 +53,7 @@ void DeployContacts::open() {
     drop_last(predilator_);
     if (d.mode == deck::DeploymentMode::balloon) {
         if (!balloon_) balloon_ = add_tool(*stent_->surface, RadialTool::Kind::balloon, program_.balloon);
-        add_tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon);
+        balloon_on_wall_ = add_tool(*wall_->surface, RadialTool::Kind::balloon, program_.balloon);
         return;
     }
     drop_last(balloon_);
@@ -95,6 +97,13 @@ double DeployContacts::tool_pressure(double time) const {
     return load_ ? load_->pressure(time) : 0;
 }
 
+bool DeployContacts::have_pressed(double time) {
+    double work = 0;   // of what recedes: it cannot touch and do none
+    for (const Contact* tool : {balloon_, balloon_on_wall_})
+        if (tool) work += tool->report().work;
+    return std::exchange(pressed_, work) != work || (load_ && load_->pressure(time) > 0);
+}
+
 ContactAccount DeployContacts::account() const {
     ContactAccount all = past_;
     all.stored = 0;   // of those that are gone
@@ -104,6 +113,7 @@ ContactAccount DeployContacts::account() const {
 
 std::vector<double*> DeployContacts::numbers() {
     std::vector<double*> all = past_.numbers();
+    all.push_back(&pressed_);
     if (load_)
         for (double* x : load_->numbers()) all.push_back(x);
     return all;

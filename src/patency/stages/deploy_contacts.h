@@ -32,6 +32,9 @@ public:
     double tool_radius(double time) const;
     double tool_pressure(double time) const;
 
+    /// Balloon or load have pressed on stent or wall since this was asked last; at a time of the program [s].
+    bool have_pressed(double time);
+
     RadialLoad* load() const { return load_.get(); }   ///< null if a tool opens the stent
     const Contact* stent_on_wall() const { return stent_on_wall_; }
 
@@ -51,9 +54,11 @@ private:
     const DeployProgram& program_;
     const DeployPace& pace_;
     SolidPart *stent_, *wall_;   // wherever they are
-    Contact *crimper_ = nullptr, *predilator_ = nullptr, *stent_on_wall_ = nullptr, *balloon_ = nullptr;
+    Contact *crimper_ = nullptr, *predilator_ = nullptr, *stent_on_wall_ = nullptr, *balloon_ = nullptr,
+            *balloon_on_wall_ = nullptr;
     std::shared_ptr<RadialLoad> load_;
     DeployPhase phase_ = DeployPhase::crimp;
+    double pressed_ = 0;    // the balloon's work when that was asked [J]
     double step_ = 0;       // that the contacts of this phase are as stiff for [s]
     ContactAccount past_;   // of contacts that are over
 };

@@ -15,6 +15,7 @@
 #include "patency/stages/deploy_pace.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_record.h"
+#include "patency/stages/deploy_rest.h"
 #include "patency/stages/deploy_results.h"
 #include "patency/stages/deploy_state.h"
 #include "patency/stages/flow_checkpoint.h"
@@ -28,7 +29,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int looks = 400;   // rows of deployment.csv
+// What a stent takes up when it is let go is a small part of its internal energy, which is that of having been opened.
+constexpr double quieter_when_let_go = 4;
+constexpr int looks = 400;   // rows of deployment.csv, if the program ends as usual
 
 class Deployment {
 public:
@@ -67,7 +70,12 @@ private:
     void say(const std::string& line) const { stage_.log(LogLevel::info, line); }
     SolidSystem& system() { return scene_->solids.system; }
     double time() const { return scene_->solids.time; }
-    double row() const { return program_.end() / looks; }   // of the program [s]
+    double row() const { return program_.usual_end / looks; }   // of the program [s]
+    double passed() const { return done_ - skipped_; }          // of the program [s]
+    double left() const {                                       // of the program, as far as is known [s]
+        const double at_least = phase_ == DeployPhase::settle ? row() : program_.usual_end - program_.deflate_from;
+        return std::max(program_.usual_end - passed(), at_least);
+    }
 
     void tell_plan() {
         const StentPlace& place = scene_->place;
@@ -83,14 +91,15 @@ private:
                         stent_->body->particles().size(), 1e6 * scene_->stent_spacing, stent_->surface->size(),
                         scene_->mass_scaling, wall_->body->particles().size(), 1e3 * scene_->wall_spacing,
                         wall_->surface->size(), scene_->field->ends().size()));
-        say(fmt::format("stable steps: stent {:.3g} s, wall {:.3g} s; {:.3g} s in all", stent_->body->stable_step(),
-                        wall_->body->stable_step(), program_.end()));
+        say(fmt::format("stable steps: stent {:.3g} s, wall {:.3g} s; about {:.3g} s in all",
+                        stent_->body->stable_step(), wall_->body->stable_step(), program_.usual_end));
     }
 
     void begin(DeployPhase phase, std::optional<double> known_step) {
         contact_steps_.push_back(contacts_->begin(phase, known_step));
         phase_ = phase;
         if (known_step) return;   // the pace is known too
+        rest_.begin();
         if (phase == DeployPhase::open) pace_.set_out(time());
         if (phase == DeployPhase::settle) pace_.rest(time());
     }
@@ -113,10 +122,11 @@ private:
                 look();
                 const RadialLoad* load = contacts_->load();
                 if (load && !load->is_stopped() && profile_.mean_diameter >= scene_->place.diameter) stop_load();
+                if (is_over()) skip_to(entry.end);
             }
             if (stage_.progress)
                 stage_.progress->update({.stage = std::string(name_of(entry.phase)),
-                                         .fraction = pace_.program(time()) / program_.end(),
+                                         .fraction = passed() / (passed() + left()),
                                          .time = time(),
                                          .step = scene_->solids.steps});
             if (is_stopped || is_checkpoint_due()) write_checkpoint();
@@ -167,9 +177,25 @@ private:
     /// What is known of the past.
     std::vector<double*> known_numbers() {
         std::vector<double*> all = marks_.numbers();
-        for (const auto& more : {contacts_->numbers(), pace_.numbers(), std::vector{&done_}})
+        for (const auto& more :
+             {contacts_->numbers(), pace_.numbers(), rest_.numbers(), std::vector{&done_, &skipped_}})
             all.insert(all.end(), more.begin(), more.end());
         return all;
+    }
+
+    /// The stent is let go where the balloon has left it and it does not go after; and it is done when it is at rest.
+    bool is_over() {
+        const double ramp = config_.deployment.ramp;
+        if (phase_ == DeployPhase::settle) return rest_.compare(done_, profile_, 0.1 * ramp) && is_at_rest();
+        if (phase_ != DeployPhase::deflate) return false;
+        if (contacts_->have_pressed(done_)) rest_.begin();
+        return rest_.compare(done_, profile_, 0.05 * ramp) && rest_.shrunk() < 2e-3;
+    }
+    bool is_at_rest() const { return 100 * rest_.moved() < most_drift_percent; }
+    void skip_to(double program) {
+        skipped_ += program - done_;
+        pace_.skip_to(time(), program);
+        done_ = program;
     }
 
     void stop_load() {
@@ -201,13 +227,14 @@ private:
             {time(), phase_, contacts_->tool_radius(done_), pressure, stent, wall, marks_.deepest, pace_.rate(time())},
             profile_);
         keep_pace(stent.ratio(), wall.ratio());
-        const double frame = program_.end() / config_.deployment.frames;
-        if (record_->frames() == 0 || done_ >= frame * double(record_->frames()) - 0.5 * row()) write_frames(nullptr);
+        const double frame = program_.usual_end / config_.deployment.frames;
+        if (record_->frames() == 0 || passed() >= frame * double(record_->frames()) - 0.5 * row())
+            write_frames(nullptr);
     }
 
     /// What counts of kinetic over internal energies, and what is made of it.
     void keep_pace(double stent, double wall) {
-        if (phase_ == DeployPhase::deflate) pace_.heed(time(), stent);
+        if (phase_ == DeployPhase::deflate) pace_.heed(time(), quieter_when_let_go * stent);
         if (phase_ != DeployPhase::open || is_load_off()) return;
         const double first_tenth =
             0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
@@ -276,6 +303,7 @@ private:
         deploy["kinetic_to_internal"] = std::max(marks_.stent_ratio, marks_.wall_ratio);
         deploy["kinetic_to_internal_stent"] = marks_.stent_ratio;
         deploy["kinetic_to_internal_wall"] = marks_.wall_ratio;
+        deploy["drift_percent"] = 100 * rest_.moved();
         deploy["slowest_pace"] = pace_.least_rate();
         deploy["drag_loss_to_internal_stent"] = stent_->body->energy().drag / energy_of(*stent_).internal;
         deploy["energies"] = energies_json(system(), contacts_->account(), !contacts_->load());
@@ -311,7 +339,8 @@ private:
     std::unique_ptr<DeployScene> scene_;
     DeployProgram program_;
     DeployPace pace_{1, 1};
-    double done_ = 0;                                // of the program, to its last row [s]
+    double done_ = 0, skipped_ = 0;   // of the program, to its last row [s]
+    DeployRest rest_;
     SolidPart *stent_ = nullptr, *wall_ = nullptr;   // wherever they are
     std::unique_ptr<DeployContacts> contacts_;
     DeployPhase phase_ = DeployPhase::crimp;

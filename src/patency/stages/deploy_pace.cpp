@@ -54,6 +54,12 @@ void DeployPace::heed(double time, double ratio) {
     change(time, now, std::clamp(allowed(), now / most_change, now * most_change));
 }
 
+void DeployPace::skip_to(double time, double program) {
+    const double now = rate(time);
+    change(time, now, now);
+    lag_ = time - program;
+}
+
 void DeployPace::rest(double time) { change(time, 1, 1); }
 
 void DeployPace::change(double time, double from, double to) {

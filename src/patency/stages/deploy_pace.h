@@ -26,6 +26,8 @@ public:
     void set_out(double time);
     /// At a look: what is driven has this kinetic over internal energy.
     void heed(double time, double ratio);
+    /// Nothing happens until then, which is now.
+    void skip_to(double time, double program);
     /// Nothing is driven any more, and tools stand still: as fast as it may.
     void rest(double time);
 

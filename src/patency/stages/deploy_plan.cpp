@@ -33,7 +33,7 @@ DeployPlan plan_deploy(const deck::Case& config, int threads) {
     plan.wall_particles = std::numbers::pi * (outer * outer - inner * inner) * length / cube(plan.wall_spacing);
     plan.stent_particles = metal_volume(place.form) / cube(plan.stent_spacing);
     plan.mass_scaling = stent_mass_scaling(config, place, plan.stent_spacing);
-    const double ramps = make_deploy_program(place, config.deployment).end() / config.deployment.ramp;
+    const double ramps = make_deploy_program(place, config.deployment).usual_end / config.deployment.ramp;
     plan.steps = ramps * config.deployment.steps;
     plan.seconds = plan.steps * plan.stent_particles / particle_steps_per_second / threads;
     return plan;

@@ -10,7 +10,8 @@ namespace patency {
 namespace {
 
 // In ramps.
-constexpr double shortest_crimp = 0.1, release = 0.1, entering = 0.2, holding = 0.05, deflating = 0.2, settling = 0.2;
+constexpr double shortest_crimp = 0.1, release = 0.1, entering = 0.2, holding = 0.05, deflating = 1, settling = 1,
+                 usual_deflating = 0.2, usual_settling = 0.2;
 
 }   // namespace
 
@@ -57,13 +58,13 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     add(DeployPhase::open, ramp);
     program.open_to = time;
     add(DeployPhase::hold, holding * ramp);
-    const double deflate_from = time;
+    program.deflate_from = time;
     add(DeployPhase::deflate, deflating * ramp);
-    // Where the stent recoils the balloon hands the wall over to it: the first fifth of its way takes half of the time.
+    // Slowly at first, where the stent recoils and the balloon hands the wall over to it.
     program.balloon =
-        ramped_radius({program.open_from, program.open_to, deflate_from, 0.5 * (deflate_from + time), time},
-                      {folded, full, full, full - 0.2 * (full - folded), folded});
+        ramped_radius({program.open_from, program.open_to, program.deflate_from, time}, {folded, full, full, folded});
     add(DeployPhase::settle, settling * ramp);
+    program.usual_end = program.deflate_from + (usual_deflating + usual_settling) * ramp;
     return program;
 }
 

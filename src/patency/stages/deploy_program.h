@@ -21,9 +21,11 @@ struct DeployProgram {
     };
     std::vector<Entry> phases;   ///< those that last
     std::function<double(double time)> crimper, balloon,
-        predilation;                                   ///< radii [m]; predilation: empty if there is none
-    double open_from = 0, open_to = 0;                 ///< when the stent is opened [s]
-    double end() const { return phases.back().end; }   ///< [s]
+        predilation;                     ///< radii [m]; predilation: empty if there is none
+    double open_from = 0, open_to = 0;   ///< when the stent is opened [s]
+    /// The last two phases end as soon as nothing happens any more, and `end` at the latest [s].
+    double end() const { return phases.back().end; }
+    double deflate_from = 0, usual_end = 0;
 };
 
 /// The balloon's last radius is that of the stent's inner face at the wanted diameter. The crimper moves as fast as the balloon on average.
