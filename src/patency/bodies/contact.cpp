@@ -93,6 +93,8 @@ public:
             if (is_in_[v] && touches_[v].unsprung != 0) damping_loss_ += losses_[v];
         last_step_ = dt;
         for_each_index(own_.size(), [&](std::size_t v) {
+            constexpr std::size_t soon = 16;   // vertices: waiting for memory took half of finding hits
+            search_.prefetch(v + soon);
             ContactHit hit;
             if (is_in_[v] || !is_free(v)) {
                 hit = find_contact_hit(own_.position[v], v, other_, search_, free_[v].clearance);

@@ -61,14 +61,14 @@ ContactHit find_contact_hit(const Vec3& x, std::size_t vertex, const SolidSurfac
         if (near->distance - search.moved() > nearest * (1 + 1e-9)) break;   // nor can those behind it be nearer
         const std::uint32_t e = near->element;
         const Sight sight(other, e, x);
-        const double distance = norm(sight.way), here = sight.behind(other, search.facing(e));
+        const double distance = norm(sight.way);
         // Where an edge or a corner is nearest its elements tie, and the one that x stands out of most tells the side; of those in one plane
         // the first by number, in whatever order a search found them.
         const bool is_tie = std::abs(distance - nearest) <= 1e-9 * nearest;
         if (!is_tie && distance > nearest) continue;
         if (!is_tie) thin.reset();
         if (search.facing(e) != e) thin = e;
-        const double further = std::abs(here) - std::abs(behind);
+        const double here = sight.behind(other, search.facing(e)), further = std::abs(here) - std::abs(behind);
         if (is_tie && (further < 0 || (further == 0 && e > hit.element))) continue;
         nearest = distance, behind = here;
         hit = {distance, distance > 0 ? sight.way / distance : normalized(other.area_vector(search.facing(e))), e,

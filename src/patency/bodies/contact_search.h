@@ -20,6 +20,10 @@ public:
     };
     /// Per vertex, the nearest first.
     const Ragged<Candidate>& candidates() const { return candidates_; }
+    /// Asks for the nearest candidates of a vertex that will be looked at soon: they lie far apart in memory.
+    void prefetch(std::size_t vertex) const {
+        if (vertex < candidates_.rows()) __builtin_prefetch(candidates_.begin(vertex));
+    }
     /// How far vertices and elements together have moved at most since then, as of the last update [m].
     double moved() const { return moved_; }
     /// The element whose normal tells where the outside of this one is: itself, or, where it is so thin that a bending of what carries it may
