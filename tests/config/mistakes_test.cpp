@@ -209,6 +209,10 @@ TEST(Mistakes, WrongKindOfValue) {
     EXPECT_EQ(mistakes_in(pipe_and("output: 3\n")),
               only("18:9: output: is 3; a record of keys is needed: interval, fields, probes, profiles, average_from, "
                    "checkpoint_interval"));
+    EXPECT_EQ(mistakes_in(pipe_and("deployment: [{mode: balloon}, {mode: balloon}]\n")),
+              only("18:13: deployment: is a list; one record of keys is needed: mode, diameter, crimped_diameter, "
+                   "predilation, friction, balloon_friction, load, ramp, steps, slowing, mass_scaling, region, "
+                   "tethering, shoulder, frames"));
     EXPECT_EQ(mistakes_in(pipe_and("body_force: [\"1 m/s^2\", \"0 m/s^2\"]\n")),
               only("18:13: body_force: a list of three is needed, for example [\"9.81 m/s^2\", \"9.81 m/s^2\", \"9.81 "
                    "m/s^2\"]"));

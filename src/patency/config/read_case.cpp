@@ -275,7 +275,8 @@ void read_record(const Node& node, const Table& table, void* record, const Scope
     if (node.kind == Node::Kind::map) return RecordReader(node, table, scope).read(record);
     std::vector<std::string> keys;
     for (const Row& row : table.rows) keys.push_back(row.key);
-    scope.mistake(node, "is " + kind_name(node) + "; a record of keys is needed: " + join(keys, ", "));
+    const std::string how_many = node.kind == Node::Kind::list ? "one" : "a";   // not two stents, nor two walls
+    scope.mistake(node, "is " + kind_name(node) + "; " + how_many + " record of keys is needed: " + join(keys, ", "));
 }
 
 }   // namespace patency::deck
