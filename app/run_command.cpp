@@ -19,6 +19,7 @@
 #include "patency/io/summary.h"
 #include "patency/report/page.h"
 #include "patency/report/same_places.h"
+#include "patency/stages/deploy_doubts.h"
 #include "patency/stages/estimate_results.h"
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/materials_summary.h"
@@ -158,7 +159,7 @@ private:
                  times = read_summary(folder_.file(stage) / "timing.json");
             if (stage == "deploy") {
                 part = Json(part["deploy"]), times = Json(times["deploy"]);
-                if (!is_quasi_static(part) || !came_to_rest(part)) code = ExitCode::bar_missed;
+                if (!doubts_about(part).empty()) code = ExitCode::bar_missed;
             } else if (part.contains("convergence") && !part["convergence"].value("is_converged", true)) {
                 code = ExitCode::bar_missed;
             }

@@ -14,6 +14,7 @@
 #include "patency/io/log_file.h"
 #include "patency/io/summary.h"
 #include "patency/stages/deploy.h"
+#include "patency/stages/deploy_doubts.h"
 #include "patency/stages/flow_checkpoint.h"
 #include "patency/stages/run_flow.h"
 
@@ -112,18 +113,6 @@ ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, co
     return outcome == Outcome::done ? ExitCode::ok : ExitCode::bar_missed;
 }
 
-namespace {
-
-/// What a geometric deployment does not know is above nothing.
-bool is_below(double bar, const Json& deploy, const char* key) {
-    return !deploy.contains(key) || !deploy[key].is_number() || deploy[key].get<double>() < bar;
-}
-
-}   // namespace
-
-bool is_quasi_static(const Json& deploy) { return is_below(most_kinetic_to_internal, deploy, "kinetic_to_internal"); }
-bool came_to_rest(const Json& deploy) { return is_below(most_drift_percent, deploy, "drift_percent"); }
-
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
                           const Log& log) {
     const bool is_done = run_logged(log, [&](Progress& progress) {
@@ -135,16 +124,9 @@ ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, 
     });
     if (!is_done) return interruption.exit_code();
     const Json deploy = read_summary(folder.file("summary.json"))["deploy"];
-    if (!is_quasi_static(deploy))
-        log(LogLevel::warning,
-            "the deployment was not quasi-static: its kinetic energy rose above a twentieth of the internal one, so "
-            "that "
-            "recoil, strains and pressures are provisional; give deployment.steps more, or deployment.slowing");
-    if (!came_to_rest(deploy))
-        log(LogLevel::warning,
-            "the stent was still moving when its time was over, so that recoil and diameters are provisional; give "
-            "deployment.steps more");
-    return is_quasi_static(deploy) && came_to_rest(deploy) ? ExitCode::ok : ExitCode::bar_missed;
+    const std::vector<std::string> doubts = doubts_about(deploy);
+    for (const std::string& doubt : doubts) log(LogLevel::warning, doubt);
+    return doubts.empty() ? ExitCode::ok : ExitCode::bar_missed;
 }
 
 }   // namespace patency::app

@@ -33,13 +33,8 @@ Progress make_progress();
 ExitCode run_flow_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
                         const Log& log);
 
-/// Whether a deployment's part of summary.json tells of solids that hardly moved for what they bore; one without mechanics is.
-bool is_quasi_static(const nlohmann::ordered_json& deploy);
-/// And of a stent that did not move any more at its end.
-bool came_to_rest(const nlohmann::ordered_json& deploy);
-
-/// The deployment of a case's stent into a folder; interruption and what throws as of a flow. One that was not quasi-static, or not
-/// at rest, is 6.
+/// The deployment of a case's stent into a folder; interruption and what throws as of a flow. One that there
+/// are doubts about is 6.
 ExitCode run_deploy_stage(const deck::Case& config, const OutputFolder& folder, const Interruption& interruption,
                           const Log& log);
 

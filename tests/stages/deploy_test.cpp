@@ -198,11 +198,32 @@ TEST(DeployContacts, KnowWhetherAnythingHasPressed) {
     const DeployPace pace(1, 1);
     DeployContacts contacts(*scene, program, pace);
     contacts.begin(DeployPhase::open, {});
+    contacts.load()->radius = [&] { return program.pumped(program.open_from); };   // it does not give way
     EXPECT_FALSE(contacts.have_pressed(program.open_from));
     EXPECT_TRUE(contacts.have_pressed(program.open_from + 0.1e-3));
-    contacts.load()->reached = 1e6, contacts.load()->stopped = 1e-3;
-    EXPECT_TRUE(contacts.have_pressed(1.1e-3));
-    EXPECT_FALSE(contacts.have_pressed(2e-3)) << "it has been taken off";
+    EXPECT_TRUE(contacts.have_pressed(program.deflate_from + 0.1e-3));
+    EXPECT_FALSE(contacts.have_pressed(program.end())) << "it has been pumped out";
+}
+
+/// Wherever along the axis they are.
+TEST(InnerFace, IsFarFromTheAxisAndMovesFromIt) {
+    const ScratchFolder inputs;
+    const auto scene = build_deployment(small_deployment(inputs.path()));
+    SolidSurface& stent = *scene->stent->surface;
+    SolidParticles& metal = scene->stent->body->particles();
+    stent.follow(metal);
+    const InnerFace face(stent, scene->place.axis);
+    EXPECT_NEAR(face.radius(), 0.9e-3, 0.01e-3);
+    EXPECT_EQ(face.speed(), 0);
+    const double before = face.radius();
+    for (std::size_t i = 0; i < metal.size(); ++i) {
+        const Vec3 x = metal.position[i];
+        metal.velocity[i] = {100, 0.3e3 * x.y, 0.3e3 * x.z};
+        metal.position[i] = x + 1e-3 * metal.velocity[i];
+    }
+    stent.follow(metal);
+    EXPECT_NEAR(face.radius(), 1.3 * before, 1e-5 * before);   // the centreline of a surface is not quite y = z = 0
+    EXPECT_NEAR(face.speed(), 0.3e3 * before, 1e-2 * before);
 }
 
 TEST(DeployRecord, TheLastInstantIsReplacedByWhatShowsMore) {

@@ -15,6 +15,8 @@ namespace patency {
 inline constexpr double most_kinetic_to_internal = 0.05;
 /// A stent that was let go is at rest: its diameter changes by less in a tenth of the time that opened it.
 inline constexpr double most_drift_percent = 0.05;
+/// A stent is opened: it is that much of the wanted diameter wide, or more.
+inline constexpr double least_opened = 0.98;
 
 /// A piece of a stent's length.
 struct StentSlice {

@@ -54,7 +54,7 @@ struct Deployment {
     std::optional<double> predilation;        ///< m: the balloon that opens the lumen before; absent: none
     double friction = 0.1;                    ///< between stent and wall
     double balloon_friction = 0.2;            ///< between tools and stent
-    double load = 2e6;                        ///< radial_load: Pa on the struts in the end
+    double load = 1e7;                        ///< radial_load: Pa on the struts, at the most
     double ramp = 3e-3;                       ///< s in which the balloon opens
     int steps = 15000;                        ///< of the stent, in the ramp
     double slowing = 4;                       ///< where it moves too fast the ramp takes longer, at most so many times

@@ -140,6 +140,8 @@ constexpr StentFact stent_facts[] = {
     {"/minimum_stent_area_mm2", "Minimum stent area"},
     {"/expansion_index", "Expansion", [](double v) { return v >= 0.9; }, "at least 0.9 of the reference area",
      "below 0.9 of the reference area"},
+    {"/opened_over_wanted", "Opened over wanted diameter", [](double v) { return v >= least_opened; },
+     "as wide as wanted", "not as wide as wanted"},
     {"/lumen/residual_stenosis_percent", "Residual stenosis"},
     {"/malapposed_percent", "Struts off the wall"},
     {"/largest_gap_mm", "Largest gap", [](double v) { return v < 0.4; }, "below 0.4 mm", "0.4 mm or more"},

@@ -10,20 +10,6 @@
 
 namespace patency {
 
-/// The struts' own pressure: rises until the stent is as wide as wanted, then falls to nothing. Times of the program [s].
-struct RadialLoad {
-    double from = 0, ramp = 1, most = 0;
-    double stopped = INFINITY, reached = 0;   ///< when, and at what pressure [Pa]
-
-    bool is_stopped() const { return stopped < INFINITY; }
-    double pressure(double time) const {
-        if (time <= from) return 0;
-        if (time < stopped) return most * std::min(1.0, (time - from) / ramp);
-        return reached * std::max(0.0, 1 - (time - stopped) / (0.2 * ramp));
-    }
-    std::vector<double*> numbers() { return {&stopped, &reached}; }
-};
-
 /// What is known after the phase in which it is measured.
 struct DeployMarks {
     double crimped_length = 0, crimped_diameter = 0;   ///< before it opens [m]

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "patency/base/parallel.h"
 #include "patency/bodies/stent_skin.h"
 #include "patency/bodies/tether.h"
 
@@ -57,7 +58,14 @@ void DeployContacts::open() {
         return;
     }
     drop_last(balloon_);
-    load_ = std::make_shared<RadialLoad>(RadialLoad{.from = program_.open_from, .ramp = d.ramp, .most = d.load});
+    const auto face = std::make_shared<InnerFace>(*stent_->surface, scene_.place.axis);
+    const SolidParticles& metal = stent_->body->particles();
+    const double mass = sum_of(metal.size(), [&](std::size_t i) { return metal.mass[i]; });
+    load_ = std::make_shared<RadialLoad>(RadialLoad{.pumped = program_.pumped,
+                                                    .radius = [face] { return face->radius(); },
+                                                    .speed = [face] { return face->speed(); },
+                                                    .most = d.load,
+                                                    .mass_by_area = mass / face->area()});
     stent_->pressures.push_back(
         {stent_inner, [&pace = pace_, load = load_](double t) { return load->pressure(pace.program(t)); }});
 }

@@ -9,6 +9,7 @@
 
 #include "patency/bodies/radial_tool.h"
 #include "patency/stages/deploy_account.h"
+#include "patency/stages/deploy_load.h"
 #include "patency/stages/deploy_pace.h"
 #include "patency/stages/deploy_program.h"
 #include "patency/stages/deploy_scene.h"

@@ -120,8 +120,10 @@ private:
             if (time() >= next_time) {
                 done_ = next;
                 look();
-                const RadialLoad* load = contacts_->load();
-                if (load && !load->is_stopped() && profile_.mean_diameter >= scene_->place.diameter) stop_load();
+                RadialLoad* load = contacts_->load();
+                if (load && !load->is_filled() && phase_ <= DeployPhase::hold &&
+                    profile_.mean_diameter >= scene_->place.diameter)
+                    fill(*load);
                 if (is_over()) skip_to(entry.end);
             }
             if (stage_.progress)
@@ -198,15 +200,12 @@ private:
         done_ = program;
     }
 
-    void stop_load() {
-        RadialLoad& load = *contacts_->load();
-        load.reached = load.pressure(done_);
-        load.stopped = done_;
-        marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
-        say(fmt::format("the load of {:.4g} MPa opened the stent to {:.4g} mm and is taken off", 1e-6 * load.reached,
+    /// No more is pumped in where the stent is as wide as wanted.
+    void fill(RadialLoad& load) const {
+        load.filled = program_.pumped(done_);
+        say(fmt::format("a load of {:.4g} MPa opened the stent to {:.4g} mm", 1e-6 * load.pressure(done_),
                         1e3 * profile_.mean_diameter));
     }
-    bool is_load_off() const { return contacts_->load() && contacts_->load()->is_stopped(); }
 
     /// The stent where it is at the end of a step.
     void measure() {
@@ -235,7 +234,7 @@ private:
     /// What counts of kinetic over internal energies, and what is made of it.
     void keep_pace(double stent, double wall) {
         if (phase_ == DeployPhase::deflate) pace_.heed(time(), quieter_when_let_go * stent);
-        if (phase_ != DeployPhase::open || is_load_off()) return;
+        if (phase_ != DeployPhase::open) return;
         const double first_tenth =
             0.1 * config_.deployment.ramp;   // of the stent's way; the wall's begins where it is touched
         if (marks_.touched == 0 && marks_.deepest > 0) marks_.touched = done_;
@@ -272,12 +271,8 @@ private:
                 1 + (time() - done_) / config_.deployment.ramp, pace_.least_rate()));
         if (phase <= DeployPhase::enter)
             marks_.crimped_length = profile_.length, marks_.crimped_diameter = profile_.mean_diameter;
-        if (phase == DeployPhase::hold && marks_.opened_diameter == 0)
+        if (phase == DeployPhase::hold)
             marks_.opened_diameter = profile_.mean_diameter, marks_.opened_length = profile_.length;
-        if (phase == DeployPhase::open && contacts_->load() && !is_load_off()) {
-            stage_.log(LogLevel::warning, "the load did not open the stent to the wanted diameter");
-            stop_load();
-        }
     }
 
     void finish() {
@@ -297,6 +292,7 @@ private:
         deploy["crimped_diameter_mm"] = 1e3 * marks_.crimped_diameter;
         deploy["crimped_length_mm"] = 1e3 * marks_.crimped_length;
         deploy["opened_diameter_mm"] = 1e3 * marks_.opened_diameter;
+        deploy["opened_over_wanted"] = marks_.opened_diameter / scene_->place.diameter;
         deploy["recoil_percent"] = 100 * recoil(marks_.opened_diameter, profile_.mean_diameter);
         deploy["foreshortening_percent"] = 100 * foreshortening(marks_.crimped_length, profile_.length);
         deploy["penetration_over_spacing"] = marks_.deepest / scene_->stent_spacing;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "patency/bodies/radial_tool.h"
+#include "patency/stages/deploy_load.h"
 
 namespace patency {
 
@@ -63,6 +64,9 @@ DeployProgram make_deploy_program(const StentPlace& place, const deck::Deploymen
     // Slowly at first, where the stent recoils and the balloon hands the wall over to it.
     program.balloon =
         ramped_radius({program.open_from, program.open_to, program.deflate_from, time}, {folded, full, full, folded});
+    const double most = full * (1 + RadialLoad::full_lag);
+    program.pumped =
+        ramped_radius({program.open_from, program.open_to, program.deflate_from, time}, {folded, most, most, folded});
     add(DeployPhase::settle, settling * ramp);
     program.usual_end = program.deflate_from + (usual_deflating + usual_settling) * ramp;
     return program;

@@ -21,7 +21,8 @@ struct DeployProgram {
     };
     std::vector<Entry> phases;   ///< those that last
     std::function<double(double time)> crimper, balloon,
-        predilation;                     ///< radii [m]; predilation: empty if there is none
+        predilation,                     ///< radii [m]; predilation: empty if there is none
+        pumped;                          ///< of what a load fills: THEORY (21.17)
     double open_from = 0, open_to = 0;   ///< when the stent is opened [s]
     /// The last two phases end as soon as nothing happens any more, and `end` at the latest [s].
     double end() const { return phases.back().end; }
