@@ -215,6 +215,8 @@ TEST(InnerFace, IsFarFromTheAxisAndMovesFromIt) {
     const InnerFace face(stent, scene->place.axis);
     EXPECT_NEAR(face.radius(), 0.9e-3, 0.01e-3);
     EXPECT_EQ(face.speed(), 0);
+    const std::vector<Vec3> beside = {{0, -5e-3, 0}, {20e-3, -5e-3, 0}};
+    EXPECT_NEAR(InnerFace(stent, StentAxis(beside, 10e-3, 0, 1.2e-3, 1e-3)).radius(), 5e-3, 0.1e-3);
     const double before = face.radius();
     for (std::size_t i = 0; i < metal.size(); ++i) {
         const Vec3 x = metal.position[i];
