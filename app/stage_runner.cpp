@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "patency/analysis/stent_metrics.h"
 #include "patency/io/flow_table.h"
 #include "patency/io/hash.h"
 #include "patency/io/log_file.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace patency {
 namespace {
@@ -51,6 +52,16 @@ TEST(RadialLoad, KeepsWhatYieldsAtItsSpeed) {
                 0.01 * speed);   // the lag grows with the radius
     EXPECT_GT(least, 0.99 * yield);
     EXPECT_LT(most, 1.01 * yield);
+    // And stops where no more is pumped in, but for the way on which the damper takes its speed.
+    const double filled_at = stent.radius;
+    stent.load.fill(end);
+    for (double t = end; t < 2 * end; t += dt) {
+        stent.speed = std::max(0.0, stent.speed + dt * (stent.load.pressure(t) - yield) / stent.load.mass_by_area);
+        stent.radius += dt * stent.speed;
+    }
+    EXPECT_EQ(stent.speed, 0);
+    const double frequency = std::sqrt(8e6 / (RadialLoad::full_lag * filled_at) / stent.load.mass_by_area);
+    EXPECT_LT(stent.radius - filled_at, 0.5 * speed / frequency);
 }
 
 }   // namespace

@@ -45,4 +45,6 @@ double RadialLoad::pressure(double time) const {
     return std::clamp(stiffness * lag - 2 * std::sqrt(stiffness * mass_by_area) * speed(), 0.0, most);
 }
 
+void RadialLoad::fill(double time) { filled = radius() * (1 + full_lag * pressure(time) / most); }
+
 }   // namespace patency

@@ -44,6 +44,8 @@ struct RadialLoad {
 
     bool is_filled() const { return filled < INFINITY; }
     double pressure(double time) const;
+    /// No more is pumped in: as much is there as presses like this where nothing moves.
+    void fill(double time);
     /// To be kept and put back.
     std::vector<double*> numbers() { return {&filled}; }
 };

@@ -123,7 +123,7 @@ private:
                 RadialLoad* load = contacts_->load();
                 if (load && !load->is_filled() && phase_ <= DeployPhase::hold &&
                     profile_.mean_diameter >= scene_->place.diameter)
-                    fill(*load);
+                    stop_filling(*load);
                 if (is_over()) skip_to(entry.end);
             }
             if (stage_.progress)
@@ -200,11 +200,10 @@ private:
         done_ = program;
     }
 
-    /// No more is pumped in where the stent is as wide as wanted.
-    void fill(RadialLoad& load) const {
-        load.filled = program_.pumped(done_);
+    void stop_filling(RadialLoad& load) const {
         say(fmt::format("a load of {:.4g} MPa opened the stent to {:.4g} mm", 1e-6 * load.pressure(done_),
                         1e3 * profile_.mean_diameter));
+        load.fill(done_);
     }
 
     /// The stent where it is at the end of a step.
