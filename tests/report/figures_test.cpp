@@ -59,6 +59,8 @@ TEST(Figures, PointersTakeAnyKey) {
 
 TEST(Figures, KeysSayTheirUnit) {
     EXPECT_EQ(measure_of("recoil_percent").unit, "%");
+    EXPECT_EQ(measure_of("drift_percent").digits, 3) << "0.05 is much of it";
+    EXPECT_EQ(words_of("drift_percent"), "Drift");
     EXPECT_EQ(measure_of("minimum_diameter_mm").unit, "mm");
     EXPECT_EQ(measure_of("flow_m3_per_s").unit, "mL/min");
     EXPECT_EQ(measure_of("velocity_m_per_s").unit, "m/s");

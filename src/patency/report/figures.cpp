@@ -32,6 +32,7 @@ constexpr Ending endings[] = {
     {"_mm2", {"mm²", 1, 2}},
     {"_mm", as_mm},
     {"_um", {"µm", 1, 1}},
+    {"drift_percent", {"%", 1, 3}, 8},   // its bar is 0.05
     {"_percent", as_percent},
     {"_mpa", {"MPa", 1, 2}},
     {"tool_pressure_pa", {"atm", 1 / 101'325.0, 1}, 3},
